@@ -3,8 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include <utility>
 
 #include "host/app/exit_code.h"
+#include "host/core/child_process.h"
 #include "host/core/error.h"
 #include "host/core/output_file.h"
 #include "host/vk/driver_variable.h"
@@ -26,13 +25,6 @@ namespace {
 constexpr int kMoment = 1000;              // [ms]
 constexpr std::size_t kRemembered = 4096;  // bytes of what a member said
 
-std::vector<char*> pointers(std::vector<std::string>& words) {
-    std::vector<char*> list;
-    for (std::string& word : words) list.push_back(word.data());
-    list.push_back(nullptr);
-    return list;
-}
-
 /// The user's environment; members side by side share the cores best with one thread each.
 std::vector<std::string> environmentFor(int slots) {
     std::vector<std::string> variables = vk::usersEnvironment();
@@ -41,30 +33,6 @@ std::vector<std::string> environmentFor(int slots) {
         variables.emplace_back("LP_NUM_THREADS=0");
     return variables;
 }
-
-/// Replaces our terminal for a process: no input, no output, a pipe for error messages, and a process group of
-/// its own, so that Ctrl-C on the terminal reaches it through us, once.
-class Surroundings {
-  public:
-    explicit Surroundings(int said) {
-        posix_spawn_file_actions_init(&files_);
-        posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-        posix_spawn_file_actions_adddup2(&files_, said, STDERR_FILENO);
-        posix_spawnattr_init(&attributes_);
-        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
-        posix_spawnattr_setpgroup(&attributes_, 0);
-    }
-    ~Surroundings() {
-        posix_spawn_file_actions_destroy(&files_);
-        posix_spawnattr_destroy(&attributes_);
-    }
-    Surroundings(const Surroundings&) = delete;
-    Surroundings& operator=(const Surroundings&) = delete;
-
-    posix_spawn_file_actions_t files_{};
-    posix_spawnattr_t attributes_{};
-};
 
 }  // namespace
 
@@ -92,17 +60,16 @@ std::vector<std::string> ChildRunner::arguments(const MemberTask& task) const {
 void ChildRunner::start(const MemberTask& task) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
-    std::vector<std::string> words = arguments(task), variables = environmentFor(slots_);
-    const Surroundings around(ends[1]);
     pid_t process = 0;
-    // The path of the running program itself, even if its file has been replaced since.
-    const int fault = posix_spawn(&process, "/proc/self/exe", &around.files_, &around.attributes_,
-                                  pointers(words).data(), pointers(variables).data());
-    ::close(ends[1]);
-    if (fault != 0) {
+    try {
+        // The path of the running program itself, even if its file has been replaced since.
+        process = startChild({"/proc/self/exe", arguments(task), environmentFor(slots_), -1, ends[1]});
+    } catch (const RunError&) {
         ::close(ends[0]);
-        throw RunError(fmt::format("cannot start another process: {}", std::strerror(fault)));
+        ::close(ends[1]);
+        throw;
     }
+    ::close(ends[1]);
     children_.push_back({task.number, process, ends[0], "", false});
 }
 
@@ -123,12 +90,9 @@ std::optional<MemberEnd> ChildRunner::wait() {
 }
 
 MemberEnd ChildRunner::reap(std::list<Child>::iterator child) {
-    int status = 0;
-    while (waitpid(child->process, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int code = waitForChild(child->process);
     ::close(child->said);
-    MemberEnd end{child->number, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-                  lastSaid(child->text)};
+    MemberEnd end{child->number, code, lastSaid(child->text)};
     children_.erase(child);
     return end;
 }

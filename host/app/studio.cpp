@@ -11,11 +11,8 @@ namespace vkdose {
 
 int studioCommand(const StudioOptions& options) {
     const auto listening = [&](const std::string& address) {
-        tell(
-            "studio     {}\nopen       {}\n           in a browser on this machine; Ctrl-C ends the workbench, and "
-            "runs keep "
-            "a checkpoint\n",
-            printable(options.folder.string()), address);
+        tell("studio     {}\nopen       {}\n", printable(options.folder.string()), address);
+        tell("           in a browser on this machine; Ctrl-C ends the workbench, and runs keep a checkpoint\n");
         sendText(stdout);
     };
     studio::serve({options.folder, findCase("mini"), options.port}, listening, watchInterrupts());

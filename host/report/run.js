@@ -3,8 +3,7 @@
 const gram = 1e3, milli = 1e3;
 const zip = (x, y, scale) => x.map((t, i) => [t, isNumber(y[i]) ? y[i] * scale : null]);
 
-function facts(main, list, into) {
-  const box = into || add(main, "dl", null, "facts");
+function factRows(box, list) {
   list.forEach(fact => {
     const row = add(box, "div");
     add(row, "dt", fact.name);
@@ -12,6 +11,8 @@ function facts(main, list, into) {
     if (fact.note) add(value, "small", fact.note);
   });
 }
+
+const facts = (main, list) => factRows(add(main, "dl", null, "facts"), list);
 
 /// Ties a chart over time, or over doses, to the player, if there is one.
 const overTime = run => run.player && {place: () => clock.time, jump: t => clock.jump(t), listen: f => clock.follow(f)};

@@ -32,10 +32,8 @@ std::vector<AddedPowder> addedPowder(const RunSources& run) {
     const Json told = run.summary.value("refills", Json::array());
     for (std::size_t k = 0; k < std::min(all.size(), told.size()); ++k) {
         if (!told[k].value("time_s", Json()).is_number()) continue;
-        const auto same = [&](const Refill& r) { return r.table == all[k].table; };
-        const auto ofTable = std::size_t(std::count_if(all.begin(), all.end(), same));
-        list.push_back({k, all[k].name, all[k].table, ofTable, 0, told[k]["time_s"].get<double>(), 0,
-                        told[k].value("mass_kg", 0.0)});
+        list.push_back({k, all[k].name, all[k].table, refillsOfTable(all, all[k].table), 0,
+                        told[k]["time_s"].get<double>(), 0, told[k].value("mass_kg", 0.0)});
     }
     return list;
 }

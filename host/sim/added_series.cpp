@@ -21,6 +21,11 @@ std::string AddedSeries::text() const {
     return fmt::format("{} g in {} spheres, {}", grams(mass), particles, when());
 }
 
+std::size_t refillsOfTable(const std::vector<Refill>& refills, std::size_t table) {
+    return std::size_t(
+        std::count_if(refills.begin(), refills.end(), [&](const Refill& r) { return r.table == table; }));
+}
+
 std::vector<AddedSeries> seriesOf(const std::vector<AddedPowder>& added) {
     std::vector<AddedSeries> list;
     for (const AddedPowder& p : added) {

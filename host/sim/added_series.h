@@ -23,6 +23,9 @@ struct AddedSeries {
     std::string text() const;  ///< "10 g in 812 spheres, at t = 4 s"
 };
 
+/// How many refills a [[refill]] gives.
+std::size_t refillsOfTable(const std::vector<Refill>& refills, std::size_t table);
+
 /// In the order of their first times. `added` is in the order of time.
 std::vector<AddedSeries> seriesOf(const std::vector<AddedPowder>& added);
 

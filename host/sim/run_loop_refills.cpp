@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host/model/refill.h"
+#include "host/sim/added_series.h"
 #include "host/sim/run_loop.h"
 
 namespace vkdose {
@@ -58,9 +59,7 @@ void RunLoop::bookAdded(std::size_t refill, std::uint64_t step) {
     const Insertion::Waiting& powder = result_.filled.waiting[refill];
     const std::size_t count = powder.particles.size();
     const std::size_t table = case_.refills[refill].table;
-    const auto ofTable =
-        std::count_if(case_.refills.begin(), case_.refills.end(), [&](const Refill& r) { return r.table == table; });
-    result_.added.push_back({refill, case_.refills[refill].name, table, std::size_t(ofTable), step,
+    result_.added.push_back({refill, case_.refills[refill].name, table, refillsOfTable(case_.refills, table), step,
                              timeline_.time(step), count, powder.mass});
     result_.ledger.add(count, powder.mass);
 }

@@ -3,8 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 
+#include "host/core/child_process.h"
 #include "host/core/error.h"
 #include "host/core/output_file.h"
 #include "host/vk/driver_variable.h"
@@ -23,13 +22,6 @@ namespace {
 constexpr std::size_t kRemembered = 16384;  // bytes of what it said on its standard error
 constexpr std::size_t kLongest = 64 << 20;  // bytes of a line: the scene of a large case is one
 constexpr int kMoment = 200;                // [ms]
-
-std::vector<char*> pointers(std::vector<std::string>& words) {
-    std::vector<char*> list;
-    for (std::string& word : words) list.push_back(word.data());
-    list.push_back(nullptr);
-    return list;
-}
 
 /// Reads what there is; false at the end.
 bool more(int file, std::string& text) {
@@ -50,30 +42,18 @@ Child::Child(const std::filesystem::path& program, const std::vector<std::string
         ::close(out[1]);
         throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
     }
-    std::vector<std::string> words{"vkdose"}, variables = vk::usersEnvironment();
+    std::vector<std::string> words{"vkdose"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, out[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, error[1], STDERR_FILENO);
-    posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C reaches it through us, once
-    posix_spawnattr_setpgroup(&attributes, 0);
-    const int fault = posix_spawn(&process_, program.c_str(), &files, &attributes, pointers(words).data(),
-                                  pointers(variables).data());
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    ::close(out[1]);
-    ::close(error[1]);
     out_ = out[0];
     error_ = error[0];
-    if (fault == 0) return;
-    ::close(out_);
-    ::close(error_);
-    throw RunError(fmt::format("cannot start another process: {}", std::strerror(fault)));
+    try {
+        process_ = startChild({program, words, vk::usersEnvironment(), out[1], error[1], folder});
+    } catch (const RunError&) {
+        for (const int end : {out[0], out[1], error[0], error[1]}) ::close(end);
+        throw;
+    }
+    ::close(out[1]);
+    ::close(error[1]);
 }
 
 Child::~Child() {
@@ -81,8 +61,7 @@ Child::~Child() {
     if (error_ >= 0) ::close(error_);
     if (process_ == 0) return;
     kill(process_, SIGINT);
-    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-    }
+    (void)waitForChild(process_);
 }
 
 void Child::interrupt() const {
@@ -110,11 +89,8 @@ Ended Child::read(const std::function<void(const std::string&)>& line,
         }
         if (text.size() > kLongest) kill(process_, SIGKILL);
     }
-    int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
+    ended.code = waitForChild(process_);
     process_ = 0;
-    ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ended;
 }
 

@@ -145,8 +145,8 @@ async function check() {
   const list = at("figures");
   list.textContent = "";
   if (found.figures)
-    facts(at("view"), kFigures.filter(([, key]) => isNumber(found.figures[key]))
-      .map(([label, key, text]) => ({name: label, value: text(found.figures[key])})), list);
+    factRows(list, kFigures.filter(([, key]) => isNumber(found.figures[key]))
+      .map(([label, key, text]) => ({name: label, value: text(found.figures[key])})));
   document.documentElement.dataset.checked = String(number);
   if (!found.scene) return;
   at("view-name").textContent = "Before the run";

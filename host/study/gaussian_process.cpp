@@ -142,6 +142,14 @@ Belief GaussianProcess::at(const std::vector<double>& point) const {
     return {kernel_.mean + kernel_.scale * k.dot(weights_), kernel_.scale * std::sqrt(std::max(0.0, left))};
 }
 
+double GaussianProcess::slope(std::vector<double> point, std::size_t k) const {
+    constexpr double kStep = 0.05;  // to each side
+    std::vector<double> high = point;
+    point[k] = std::max(0.0, point[k] - kStep);
+    high[k] = std::min(1.0, high[k] + kStep);
+    return (at(high).mean - at(point).mean) / (high[k] - point[k]);
+}
+
 std::vector<LeftOut> GaussianProcess::leftOut() const {
     const Eigen::MatrixXd inverse = root_.solve(Eigen::MatrixXd::Identity(values_.size(), values_.size()));
     std::vector<LeftOut> all;

@@ -48,6 +48,10 @@ class GaussianProcess {
 
     Belief at(const std::vector<double>& point) const;
 
+    /// Change of the mean along coordinate `k`, over a tenth of its range about a point of the unit cube, or as much of
+    /// it as is inside [unit of the observations for the whole range].
+    double slope(std::vector<double> point, std::size_t k) const;
+
     /// Each observation as all others predict it, with the same kernel. In closed form, from one inverse of the
     /// covariance K: mean y_i - [K^-1 y]_i / [K^-1]_ii, variance 1 / [K^-1]_ii (Sundararajan and Keerthi 2001;
     /// Rasmussen and Williams 2006, section 5.4.2).

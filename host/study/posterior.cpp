@@ -50,19 +50,6 @@ std::vector<std::vector<double>> correlationOf(const std::vector<UnitPoint>& poi
     return all;
 }
 
-/// By the law of total variance: that of the means, and the mean of the surrogate's own.
-Belief figureOver(const std::vector<UnitPoint>& points, const GaussianProcess& process) {
-    std::vector<double> means;
-    double own = 0;
-    for (const UnitPoint& p : points) {
-        const Belief belief = process.at(p);
-        means.push_back(belief.mean);
-        own += belief.deviation * belief.deviation / double(points.size());
-    }
-    const double mean = std::accumulate(means.begin(), means.end(), 0.0) / double(means.size());
-    return {mean, std::sqrt(covariance(means, means) + own)};
-}
-
 /// So many of the points, each at most once, in an order of chance: any number of the first ones is a sample too.
 std::vector<UnitPoint> someOf(const std::vector<UnitPoint>& points, std::size_t count) {
     std::vector<std::pair<double, std::size_t>> order;
@@ -74,6 +61,18 @@ std::vector<UnitPoint> someOf(const std::vector<UnitPoint>& points, std::size_t 
 }
 
 }  // namespace
+
+Belief figureOver(const std::vector<UnitPoint>& points, const GaussianProcess& process) {
+    std::vector<double> means;
+    double own = 0;
+    for (const UnitPoint& p : points) {
+        const Belief belief = process.at(p);
+        means.push_back(belief.mean);
+        own += belief.deviation * belief.deviation / double(points.size());
+    }
+    const double mean = std::accumulate(means.begin(), means.end(), 0.0) / double(means.size());
+    return {mean, std::sqrt(covariance(means, means) + own)};
+}
 
 Interval intervalOf(std::vector<double> values) {
     std::sort(values.begin(), values.end());

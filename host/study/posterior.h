@@ -46,6 +46,10 @@ struct Posterior {
 Posterior posteriorOf(const CalibrationAim& aim, const std::vector<Goal>& goals, const Processes& processes,
                       std::size_t draws = 200, const SampleSize& size = {});
 
+/// What a surrogate says of its figure over points of the unit cube, by the law of total variance: the variance of the
+/// means, and the mean of the surrogate's own.
+Belief figureOver(const std::vector<UnitPoint>& points, const GaussianProcess& process);
+
 /// Quantiles between the values are interpolated (Hyndman and Fan 1996, type 7).
 Interval intervalOf(std::vector<double> values);
 

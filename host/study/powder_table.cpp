@@ -20,7 +20,6 @@ constexpr std::size_t kKernelPoints = 60;
 constexpr SampleSize kSample{8, 64};
 constexpr std::size_t kDraws = 200;
 constexpr std::string_view kBond = "bond";
-constexpr double kSlopeStep = 0.05;
 /// Part of a parameter's range at its ends: an interval that begins there may go on beyond.
 constexpr double kEnd = 0.03;
 
@@ -121,31 +120,11 @@ class Asked {
     std::map<const TableFigure*, GaussianProcess> processes_;
 };
 
-/// The mean over the draws, and the deviation with that of the process in it.
-Belief over(const std::vector<UnitPoint>& draws, const GaussianProcess& process) {
-    double sum = 0, squares = 0, own = 0;
-    for (const UnitPoint& u : draws) {
-        const Belief b = process.at(u);
-        sum += b.mean;
-        squares += b.mean * b.mean;
-        own += b.deviation * b.deviation;
-    }
-    const double n = double(draws.size()), mean = sum / n;
-    return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) + own / n)};
-}
-
 double misfitAt(const UnitPoint& u, const std::vector<Aim>& aims, const Processes& processes) {
     double sum = 0;
     for (std::size_t g = 0; g < aims.size(); ++g)
         sum += std::pow((processes[g].at(u).mean - aims[g].goal.target) / aims[g].goal.tolerance, 2);
     return sum;
-}
-
-double slopeAt(UnitPoint u, std::size_t k, const GaussianProcess& process) {
-    UnitPoint high = u;
-    u[k] = std::max(0.0, u[k] - kSlopeStep);
-    high[k] = std::min(1.0, high[k] + kSlopeStep);
-    return (process.at(high).mean - process.at(u).mean) / (high[k] - u[k]);
 }
 
 CalibrationFinding findingOf(const std::vector<FreeParameter>& box, const std::vector<Aim>& aims,
@@ -164,7 +143,7 @@ CalibrationFinding findingOf(const std::vector<FreeParameter>& box, const std::v
         const FreeParameter& free = box[k];
         CalibrationFinding::Parameter of{free.key, free.low, free.high, p.draws[best][k], {}, 0, p.parameters[k]};
         for (std::size_t g = 0; g < aims.size(); ++g)
-            of.change.push_back(slopeAt(draws[best], k, processes[g]) / aims[g].goal.tolerance);
+            of.change.push_back(processes[g].slope(draws[best], k) / aims[g].goal.tolerance);
         const auto weaker = [](double a, double b) { return std::abs(a) < std::abs(b); };
         of.mostlyBy = std::size_t(std::max_element(of.change.begin(), of.change.end(), weaker) - of.change.begin());
         f.parameters.push_back(of);
@@ -240,14 +219,15 @@ LikePowder powderLike(const LaboratorySheet& sheet, const std::filesystem::path&
     for (const TableFigure& figure : tableFigures()) {
         const bool given = std::any_of(aims.begin(), aims.end(), [&](const Aim& a) { return a.figure == &figure; });
         if (!given && asked.has(figure) && figure.name != kBond)
-            like.foretold.push_back({figure.title, figure.unit, over(draws, asked.process(figure))});
+            like.foretold.push_back({figure.title, figure.unit, figureOver(draws, asked.process(figure))});
     }
     const TableFigure& strength = tableFigure("strength");
     if (asked.has(strength)) like.load = asked.load(asked.of(strength));
 
     const SheetValue *density = sheet.find("density"), *bulk = sheet.find("bulk");
-    const double fraction =
-        asked.has(tableFigure("poured")) ? over(draws, asked.process(tableFigure("poured"))).mean : kUsualFraction;
+    const double fraction = asked.has(tableFigure("poured"))
+                                ? figureOver(draws, asked.process(tableFigure("poured"))).mean
+                                : kUsualFraction;
     like.density = density != nullptr ? density->value
                    : bulk != nullptr  ? bulk->value / fraction
                                       : asked.of(*aims.front().figure).density;

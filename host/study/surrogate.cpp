@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kNothingNew = 1e-3;  // of the tolerance: an improvement not worth a run
 constexpr double kTooNear = 1e-3;     // of the range: a run so near to a former one tells nothing new
-constexpr double kSlopeStep = 0.05;   // of the range, to each side
 
 class Search {
   public:
@@ -131,13 +130,9 @@ class Search {
     /// Slopes of the beliefs at the best point.
     void findSensitivity(const Processes& processes) {
         for (std::size_t g = 0; g < goals_.size(); ++g) {
-            for (std::size_t i = 0; i < aim_.parameters.size(); ++i) {
-                UnitPoint low = sampled_.unit()[result_.best], high = low;
-                low[i] = std::max(0.0, low[i] - kSlopeStep);
-                high[i] = std::min(1.0, high[i] + kSlopeStep);
-                result_.goals[g].sensitivity.push_back((processes[g].at(high).mean - processes[g].at(low).mean) /
-                                                       ((high[i] - low[i]) * goals_[g].tolerance));
-            }
+            for (std::size_t i = 0; i < aim_.parameters.size(); ++i)
+                result_.goals[g].sensitivity.push_back(processes[g].slope(sampled_.unit()[result_.best], i) /
+                                                       goals_[g].tolerance);
         }
     }
 

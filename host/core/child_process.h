@@ -1,0 +1,29 @@
+#pragma once
+// A program as another process.
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vkdose {
+
+/// What a process is started with.
+struct ChildStart {
+    std::filesystem::path program;
+    std::vector<std::string> words;      ///< its arguments, its name first
+    std::vector<std::string> variables;  ///< its environment, "NAME=VALUE" each
+    int out = -1;                        ///< file descriptor for its standard output; -1: that is thrown away
+    int error = -1;                      ///< likewise for its standard error
+    std::filesystem::path folder = {};   ///< that it works in; empty: ours
+};
+
+/// Starts it without an input, in a process group of its own, so that Ctrl-C on the terminal reaches it through us,
+/// once. Throws RunError if the system starts no more processes.
+pid_t startChild(ChildStart start);
+
+/// Waits for its end. Gives its exit code, or 128 and the signal that ended it.
+int waitForChild(pid_t process);
+
+}  // namespace vkdose
