@@ -17,8 +17,10 @@
 #include "host/model/bed_weight.h"
 #include "host/model/powders.h"
 #include "host/model/stability.h"
+#include "host/report/player_bodies.h"
 #include "host/report/player_data.h"
 #include "host/sim/added_series.h"
+#include "host/sim/planned_motion.h"
 #include "host/sim/runner.h"
 
 namespace vkdose {
@@ -277,12 +279,14 @@ Json runTimeJson(const CheckOptions& options, const Checked& all) {
             {"told", printable(speed.told)}};
 }
 
-/// The powder as it is filled in, and the device around it.
+/// The powder as it is filled in, the device around it, and how that will move.
 Json sceneOf(const Checked& all) {
     Frame frame;
     frame.particles = all.filled.particles;
     const report::FrameSource only{{FrameEntry{}}, [&](const FrameEntry&) { return frame; }};
-    return report::playerJson(all.c, only, 0);
+    Json scene = report::playerJson(all.c, only, 0);
+    scene["motion"] = report::motionJson(all.c, plannedMotion(all.c));
+    return scene;
 }
 
 int checkAsJson(const CheckOptions& options) {
@@ -300,6 +304,7 @@ int checkAsJson(const CheckOptions& options) {
         Json derivations = Json::array();
         for (const std::string& line : all.c.derivations) derivations.push_back(printable(line));
         out["derived"] = derivations;
+        out["resolved"] = all.c.resolved;
         if (options.scene) out["scene"] = sceneOf(all);
     } catch (const CaseError& error) {
         out["errors"] = errorsOf(error);

@@ -63,7 +63,7 @@ void ChildRunner::start(const MemberTask& task) {
     pid_t process = 0;
     try {
         // The path of the running program itself, even if its file has been replaced since.
-        process = startChild({"/proc/self/exe", arguments(task), environmentFor(slots_), -1, ends[1]});
+        process = startChild({"/proc/self/exe", arguments(task), environmentFor(slots_), -1, -1, ends[1]});
     } catch (const RunError&) {
         ::close(ends[0]);
         ::close(ends[1]);

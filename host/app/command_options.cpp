@@ -72,7 +72,7 @@ CLI::App& addRun(CLI::App& program, RunOptions& options) {
         ->type_name("DIR");
     command.add_flag("--force", options.force,
                      "replace a former run in the output folder: its files, and none that vkdose did not write");
-    addShow(command, options.quiet, options.live, options.events);
+    addShow(command, options.quiet, options.live, options.events, options.orders);
     command.add_option("--member", options.member, "number of the run in a study")->group("");
     addParent(command, options.parent);
     auto* draws = command
@@ -97,7 +97,7 @@ CLI::App& addResume(CLI::App& program, ResumeOptions& options) {
     addSet(command, options.overrides,
            "replace a value that changes nothing of the past: contact.max_overlap_ratio, stop.*, checkpoint.*; may be "
            "repeated");
-    addShow(command, options.quiet, options.live, options.events);
+    addShow(command, options.quiet, options.live, options.events, options.orders);
     addParent(command, options.parent);
     addDevice(command, options.backend);
     return command;

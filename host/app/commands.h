@@ -53,6 +53,7 @@ struct RunOptions {
     bool quiet = false;
     bool live = false;                    ///< the bed on the terminal
     bool events = false;                  ///< JSON lines on stdout in place of all text there
+    bool orders = false;                  ///< obeys lines on stdin
     int parent = 0;                       ///< process with which this one ends, as by Ctrl-C; 0: none
     std::optional<std::uint32_t> member;  ///< number in a study
     int draws = 0;                        ///< runs with so many draws of the powder in place of one; 0: one
@@ -66,6 +67,7 @@ struct ResumeOptions {
     bool quiet = false;
     bool live = false;    ///< as above
     bool events = false;  ///< as above
+    bool orders = false;  ///< as above
     int parent = 0;       ///< as above
 };
 

@@ -3,13 +3,16 @@
 #include "host/app/interrupt.h"
 #include "host/app/tell.h"
 #include "host/core/json.h"
+#include "host/core/printable.h"
+#include "host/model/key.h"
 #include "host/model/powders.h"
 
 namespace vkdose {
 
 using Json = nlohmann::ordered_json;
 
-EventsDisplay::EventsDisplay(const Case& c, std::FILE* stream) : case_(c), stream_(stream) {}
+EventsDisplay::EventsDisplay(const Case& c, std::unique_ptr<Orders> orders, std::FILE* stream)
+    : case_(c), orders_(std::move(orders)), stream_(stream) {}
 
 void EventsDisplay::begin(const Insertion& filled, const std::filesystem::path& output, const std::string& backend,
                           double from) {
@@ -46,6 +49,10 @@ void EventsDisplay::onProgress(const Progress& p) {
 }
 
 void EventsDisplay::onSample(const Sample& sample) {
+    if (orders_) {
+        orders_->look(sample);
+        hearOrders();
+    }
     Json event{{"event", "sample"}};
     putColumns(kSampleColumns, sample, event);
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
@@ -95,6 +102,31 @@ void EventsDisplay::onRefill(const AddedPowder& powder) {
          {"time_s", jsonNumber(powder.time)},
          {"particles", powder.particles},
          {"mass_kg", jsonNumber(powder.mass)}});
+}
+
+void EventsDisplay::hearOrders() {
+    for (const Orders::Refused& r : orders_->hear())
+        say({{"event", "refused"}, {"order", printable(r.order)}, {"why", printable(r.why)}});
+}
+
+DriveOrder EventsDisplay::order() {
+    if (!orders_) return {};
+    hearOrders();
+    return orders_->take();
+}
+
+void EventsDisplay::onOrder(const GivenOrder& given) {
+    const auto& speed = given.order.speed;
+    say({{"event", "order"},
+         {"order", given.order.stop ? "stop" : "speed"},
+         {"time_s", jsonNumber(given.time)},
+         {"speed_rpm", speed ? jsonNumber(*speed * kRpm.perSI) : Json(nullptr)}});
+}
+
+bool EventsDisplay::wantsRefill(std::size_t refill) {
+    if (!orders_) return false;
+    hearOrders();
+    return orders_->wantsRefill(refill);
 }
 
 void EventsDisplay::end(const RunResult& result, ExitCode code, const std::string& error,

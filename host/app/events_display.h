@@ -3,12 +3,14 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "host/advice/advice.h"
 #include "host/app/exit_code.h"
+#include "host/app/orders.h"
 #include "host/app/progress.h"
 
 namespace vkdose {
@@ -21,12 +23,15 @@ namespace vkdose {
 ///     sample   the columns of timeseries.csv; "bodies", "regions" and "powders": the columns of each, by their names
 ///     settled  time_s, at_rest, speed_m_s, fall_speed_m_s, spilled_kg
 ///     dose     the columns of doses.csv; "bodies", "regions" and "powders" as above
+///     order    order ("speed" or "stop"), time_s, speed_rpm or null: one that the drive obeys
+///     refused  order (the line), why
 ///     end      stop_reason, stop_sentence, code (exit code of the program), error or null, output
 ///
 /// If nobody reads any longer, the run is interrupted as by Ctrl-C and can be resumed.
 class EventsDisplay : public RunDisplay {
   public:
-    explicit EventsDisplay(const Case& c, std::FILE* stream = stdout);
+    /// With `orders` the run obeys them.
+    explicit EventsDisplay(const Case& c, std::unique_ptr<Orders> orders = nullptr, std::FILE* stream = stdout);
 
     void begin(const Insertion& filled, const std::filesystem::path& output, const std::string& backend, double from);
     void warn(const Warning& warning);
@@ -35,13 +40,19 @@ class EventsDisplay : public RunDisplay {
     void onSettled(const Settling& settling, const Case& c) override;
     void onDose(const Dose& dose) override;
     void onRefill(const AddedPowder& powder) override;
+    DriveOrder order() override;
+    void onOrder(const GivenOrder& order) override;
+    bool wantsRefill(std::size_t refill) override;
     void end(const RunResult& result, ExitCode code, const std::string& error, const std::filesystem::path& output);
     void close() override {}
 
   private:
     void say(const nlohmann::ordered_json& event);
 
+    void hearOrders();
+
     const Case& case_;
+    std::unique_ptr<Orders> orders_;
     std::FILE* stream_;
     Phase phase_ = Phase::Settle;
     int dose_ = -1;  ///< of the last phase told; -1: none

@@ -35,6 +35,11 @@ class Fanout : public RunObserver {
     void onRefill(const AddedPowder& p) override {
         if (display_) display_->onRefill(p);
     }
+    DriveOrder order() override { return display_ ? display_->order() : DriveOrder{}; }
+    void onOrder(const GivenOrder& o) override {
+        if (display_) display_->onOrder(o);
+    }
+    bool wantsRefill(std::size_t refill) override { return display_ != nullptr && display_->wantsRefill(refill); }
     void onField(const FieldSample& f) override { folder_.onField(f); }
     void onCheckpoint(const RunCheckpoint& c, double time) override { folder_.onCheckpoint(c, time); }
     bool storesCheckpoints() const override { return folder_.storesCheckpoints(); }

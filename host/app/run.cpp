@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "host/advice/advice.h"
 #include "host/app/commands.h"
@@ -27,6 +28,7 @@ struct Manner {
     bool quiet = false;
     bool live = false;    ///< the bed on the terminal
     bool events = false;  ///< JSON on stdout, and no text
+    bool orders = false;  ///< taken from the standard input
     int parent = 0;
 };
 
@@ -48,7 +50,7 @@ int playAsEvents(ReadyRun run, Backend& backend, RunFolder& folder, const Manner
     const std::atomic<bool>& stop = watchInterrupts();
     if (manner.parent != 0) endWithParent(manner.parent);
     const Case c = run.c;
-    EventsDisplay events(c);
+    EventsDisplay events(c, manner.orders ? std::make_unique<Orders>(c, STDIN_FILENO) : nullptr);
     events.begin(run.filled, folder.path(), backend.description(), run.from ? run.from->time : 0);
     for (const Warning& w : warningsOf(run.c, run.filled)) events.warn(w);
     const Played played = play(std::move(run), backend, folder, &events, stop);
@@ -126,7 +128,7 @@ int runCommand(const RunOptions& options) {
     if (!options.quiet && !options.events) tellWarnings(run);
     RunFolder folder = folderOf(run, out, options.force, *backend);
     return playAloud(std::move(run), *backend, folder,
-                     {choice, options.quiet, options.live, options.events, options.parent});
+                     {choice, options.quiet, options.live, options.events, options.orders, options.parent});
 }
 
 int resumeCommand(const ResumeOptions& options) {
@@ -140,7 +142,7 @@ int resumeCommand(const ResumeOptions& options) {
              run.from->program, run.from->backend, VKDOSE_VERSION, backend->description());
     RunFolder folder = folderOf(run, options.folder, true, *backend);
     return playAloud(std::move(run), *backend, folder,
-                     {choice, options.quiet, options.live, options.events, options.parent});
+                     {choice, options.quiet, options.live, options.events, options.orders, options.parent});
 }
 
 }  // namespace vkdose

@@ -51,7 +51,7 @@ void addParent(CLI::App& command, int& parent) {
     command.add_option("--parent", parent, "end, as by Ctrl-C, when this process does")->group("");
 }
 
-void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
+void addShow(CLI::App& command, bool& quiet, bool& live, bool& events, bool& orders) {
     auto* silent = command.add_flag("--quiet", quiet, "print errors only");
     command.add_flag("--live", live, "show the bed and the doses on the terminal while the run goes on")
         ->excludes(silent);
@@ -59,6 +59,10 @@ void addShow(CLI::App& command, bool& quiet, bool& live, bool& events) {
         .add_flag("--events", events, "print phases, samples, doses and warnings as JSON, a line for each, and no text")
         ->excludes("--quiet")
         ->excludes("--live");
+    command
+        .add_flag("--orders", orders,
+                  "obey lines on the standard input while the run goes on: speed RPM, dose GRAMS, stop, refill NAME")
+        ->needs("--events");
 }
 
 CLI::Option* addFor(CLI::App& command, std::optional<TimeLimit>& limit) {

@@ -49,7 +49,7 @@ void addBackend(CLI::App& command, BackendChoice& backend);
 /// For the program itself, which runs the members of a sweep as processes of its own.
 void addParent(CLI::App& command, int& parent);
 
-void addShow(CLI::App& command, bool& quiet, bool& live, bool& events);
+void addShow(CLI::App& command, bool& quiet, bool& live, bool& events, bool& orders);
 
 /// --for, of commands that run members.
 CLI::Option* addFor(CLI::App& command, std::optional<TimeLimit>& limit);

@@ -27,7 +27,7 @@ class Surroundings {
   public:
     explicit Surroundings(const ChildStart& start) {
         posix_spawn_file_actions_init(&files_);
-        posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        put(start.in, STDIN_FILENO);
         put(start.out, STDOUT_FILENO);
         put(start.error, STDERR_FILENO);
         if (!start.folder.empty()) posix_spawn_file_actions_addchdir_np(&files_, start.folder.c_str());
@@ -50,7 +50,8 @@ class Surroundings {
         if (file >= 0)
             posix_spawn_file_actions_adddup2(&files_, file, place);
         else
-            posix_spawn_file_actions_addopen(&files_, place, "/dev/null", O_WRONLY, 0);
+            posix_spawn_file_actions_addopen(&files_, place, "/dev/null", place == STDIN_FILENO ? O_RDONLY : O_WRONLY,
+                                             0);
     }
 };
 

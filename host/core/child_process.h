@@ -14,12 +14,13 @@ struct ChildStart {
     std::filesystem::path program;
     std::vector<std::string> words;      ///< its arguments, its name first
     std::vector<std::string> variables;  ///< its environment, "NAME=VALUE" each
-    int out = -1;                        ///< file descriptor for its standard output; -1: that is thrown away
-    int error = -1;                      ///< likewise for its standard error
+    int in = -1;                         ///< file descriptor of its standard input; -1: it has none
+    int out = -1;                        ///< likewise of its standard output; -1: that is thrown away
+    int error = -1;                      ///< likewise of its standard error
     std::filesystem::path folder = {};   ///< that it works in; empty: ours
 };
 
-/// Starts it without an input, in a process group of its own, so that Ctrl-C on the terminal reaches it through us,
+/// Starts it in a process group of its own, so that Ctrl-C on the terminal reaches it through us,
 /// once. Throws RunError if the system starts no more processes.
 pid_t startChild(ChildStart start);
 

@@ -134,6 +134,16 @@ Json refills(const Case& c, const RunResult& r) {
     return list;
 }
 
+/// A run that was ordered about is repeated by its case and these.
+Json orders(const std::vector<GivenOrder>& given) {
+    Json list = Json::array();
+    for (const GivenOrder& o : given)
+        list.push_back({{"time_s", jsonNumber(o.time)},
+                        {"order", o.order.stop ? "stop" : "speed"},
+                        {"speed_rad_s", o.order.speed ? jsonNumber(*o.order.speed) : Json(nullptr)}});
+    return list;
+}
+
 Json doseCount(const std::optional<int>& dose) {
     return dose ? Json(*dose) : Json(nullptr);
 }
@@ -306,6 +316,7 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
     j["closed_form"] = closedForms(c, r);
     if (const std::string note = closedFormNote(c, r); !note.empty()) j["closed_form"]["note"] = note;
     if (!c.refills.empty()) j["refills"] = refills(c, r);
+    if (!r.orders.empty()) j["orders"] = orders(r.orders);
     j["ledger"] = ledger(r);
     if (r.last.energy) j["energy"] = energy(*r.last.energy);
     j["max_overlap_ratio"] = jsonNumber(r.maxOverlapRatio);

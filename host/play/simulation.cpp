@@ -272,13 +272,16 @@ bool Simulation::takesOrders() const {
     return thread().seen().takesOrders;
 }
 
-void Simulation::changeSpeed(double speed) {
+void requireDriveSpeed(const Case& c, double speed) {
     if (!(speed >= 0) || std::isinf(speed)) throw std::invalid_argument("the speed of a drive is a number >= 0");
+    if (speed <= c.schedule.fastestSpeed()) return;
+    const std::string key = c.world.coil ? "coil.speed_rpm" : "dose.speed_rpm";
+    (void)loadResolvedCase(c.resolved, c.name, {fmt::format("{}={}", key, speed * kRpm.perSI)});
+}
+
+void Simulation::changeSpeed(double speed) {
     requireOrders();
-    if (speed > case_.schedule.fastestSpeed()) {
-        const std::string key = case_.world.coil ? "coil.speed_rpm" : "dose.speed_rpm";
-        (void)loadResolvedCase(case_.resolved, case_.name, {fmt::format("{}={}", key, speed * kRpm.perSI)});
-    }
+    requireDriveSpeed(case_, speed);
     thread().seen().order.speed = speed;
 }
 

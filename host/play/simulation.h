@@ -27,6 +27,9 @@ class ForkError : public std::logic_error {
     using std::logic_error::logic_error;
 };
 
+/// Throws std::invalid_argument for a speed [rad/s] that no drive has, and CaseError if no case like this may have it.
+void requireDriveSpeed(const Case& c, double speed);
+
 /// It keeps its readings, doses and fields in memory, for `store`.
 ///
 /// The run is made by a thread of its own, which sleeps while the run rests. All calls but `awaitRest` and `halt` are

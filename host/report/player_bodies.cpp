@@ -101,4 +101,26 @@ Json bodiesJson(const Case& c, const std::vector<Frame>& frames, const Frame& se
     return list;
 }
 
+Json motionJson(const Case& c, const std::vector<Frame>& frames) {
+    Json poses = Json::array(), times = Json::array(), phases = Json::array(), doses = Json::array();
+    std::vector<double> angles;
+    bool moves = false;
+    for (const DrawnBody& drawn : bodiesOf(c)) {
+        poses.push_back(posesJson(drawn, c, frames));
+        for (const Frame& frame : frames) {
+            const geometry::Pose first = poseOf(drawn, c, frames.front()), now = poseOf(drawn, c, frame);
+            moves = moves || now.origin != first.origin || now.rotation != first.rotation;
+        }
+    }
+    for (const Frame& frame : frames) {
+        times.push_back(frame.time);
+        phases.push_back(static_cast<int>(frame.phase));
+        doses.push_back(frame.dose);
+        angles.push_back(frame.coilAngle);
+        moves = moves || (c.world.coil && frame.coilAngle != 0);
+    }
+    if (!moves) return nullptr;
+    return {{"time_s", times}, {"phase", phases}, {"dose", doses}, {"coil_angle_rad", angles}, {"poses", poses}};
+}
+
 }  // namespace vkdose::report

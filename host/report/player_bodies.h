@@ -19,4 +19,8 @@ inline constexpr std::size_t kMostTriangles = 100'000;
 /// powder and other bodies. `settled` is the frame by which is judged what a body hides.
 Json bodiesJson(const Case& c, const std::vector<Frame>& frames, const Frame& settled);
 
+/// The device alone in each of `frames`: `time_s`, `phase`, `dose`, `coil_angle_rad`, and `poses` of each body as
+/// above. Null if nothing of it moves.
+Json motionJson(const Case& c, const std::vector<Frame>& frames);
+
 }  // namespace vkdose::report

@@ -28,6 +28,13 @@ struct DriveOrder {
     std::optional<double> speed;  ///< conveying, to change to [rad/s]
 };
 
+/// One that the drive has obeyed.
+struct GivenOrder {
+    std::uint64_t step = 0;  ///< made before
+    double time = 0;         ///< [s]
+    DriveOrder order;
+};
+
 struct Dose {
     int index = 0;         ///< 1 for the first
     double startTime = 0;  ///< [s]

@@ -71,16 +71,17 @@ DoseBook::Order DoseBook::look(const Sample& sample, bool last) {
     return order;
 }
 
-void DoseBook::obey(const DriveOrder& given, const Sample& sample, Order& order) {
+bool DoseBook::obey(const DriveOrder& given, const Sample& sample, Order& order) {
     if (given.stop) {
         order.stop = StopCause::Order;
         noteStop(StopCause::Order, sample.sensors, sample.time);
     } else if (given.speed && *given.speed != speed_) {  // said again, it begins no second ramp
         order.speed = speed_ = *given.speed;
     } else {
-        return;
+        return false;
     }
     ordered_ = true;
+    return true;
 }
 
 Dose DoseBook::close(bool complete, const Sensors& now, double time) {

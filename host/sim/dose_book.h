@@ -39,8 +39,8 @@ class DoseBook {
         std::optional<double> speed;  ///< conveying, to change to [rad/s]
     };
     Order look(const Sample& sample, bool last);
-    /// Adds an order from outside at a sample that decided not to stop.
-    void obey(const DriveOrder& given, const Sample& sample, Order& order);
+    /// Adds an order from outside at a sample that decided not to stop. Returns whether it changes anything.
+    bool obey(const DriveOrder& given, const Sample& sample, Order& order);
 
     /// Ends the dose with the latest sensors at `time` [s].
     Dose close(bool complete, const Sensors& now, double time);

@@ -175,7 +175,7 @@ void RunLoop::beginDosing() {
 bool RunLoop::control() {
     if (stretch_.phase != Phase::Rotate || !book_.conveys()) return false;
     DoseBook::Order order = book_.look(result_.last, step_ == stretch_.stop);
-    if (!order.stop) book_.obey(observer_.order(), result_.last, order);
+    if (!order.stop) obey(order);
     if (order.speed) timeline_.changeSpeed(step_, *order.speed);
     if (!order.stop) return false;
     if (step_ < stretch_.stop) {
@@ -183,6 +183,14 @@ bool RunLoop::control() {
         stretch_ = timeline_.at(step_ - 1);
     }
     return *order.stop == StopCause::Torque && case_.schedule.torqueEndsRun;
+}
+
+void RunLoop::obey(DoseBook::Order& order) {
+    DriveOrder given = observer_.order();
+    if (given.stop) given.speed.reset();
+    if (!book_.obey(given, result_.last, order)) return;
+    result_.orders.push_back({step_, timeline_.time(step_), given});
+    observer_.onOrder(result_.orders.back());
 }
 
 void RunLoop::openDose() {

@@ -130,6 +130,7 @@ class RunLoop {
     void changeGravity(const Vec3& to);
     /// Lets the dose under way change the coil's speed or stop it. Returns true if that ends the run.
     bool control();
+    void obey(DoseBook::Order& order);
     void openDose();
     void closeDose(bool complete);
     /// Returns true if the phase that ended completes a dose and the judge says it was the last one.

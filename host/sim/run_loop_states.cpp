@@ -138,6 +138,7 @@ Record RunLoop::save() const {
     timeline_.save(r);
     book_.save(r);
     put(r, "doses", result_.doses);
+    put(r, "orders", result_.orders);
     put(r, "last", result_.last);
     put(r, result_.settled);
     put(r, result_.settling);
@@ -180,6 +181,7 @@ void RunLoop::restore(const Record& r) {
     if (!dosing_) timeline_.endSettling(timeline_.settleSteps());  // the doses are those of the case
     book_.restore(r);
     get(r, "doses", result_.doses);
+    get(r, "orders", result_.orders);
     get(r, "last", result_.last);
     result_.last.regions = regions_.samples();
     result_.last.powders = powders_.places();

@@ -1,5 +1,6 @@
 #include "host/sim/run_record.h"
 
+#include <cmath>
 #include <utility>
 
 namespace vkdose {
@@ -97,6 +98,30 @@ void get(const Record& record, const std::string& name, std::vector<Dose>& doses
     for (std::size_t d = 0; d < doses.size(); ++d)
         doses[d].bodies.assign(bodies.begin() + std::ptrdiff_t(d * each),
                                bodies.begin() + std::ptrdiff_t((d + 1) * each));
+}
+
+void put(Record& record, const std::string& name, const std::vector<GivenOrder>& orders) {
+    if (orders.empty()) return;
+    std::vector<std::uint64_t> steps;
+    std::vector<double> figures;
+    for (const GivenOrder& o : orders) {
+        steps.push_back(o.step);
+        figures.insert(figures.end(), {o.time, o.order.speed.value_or(std::nan(""))});
+    }
+    record.put(name + "_steps", std::move(steps));
+    record.put(name + "_figures", std::move(figures));
+}
+
+void get(const Record& record, const std::string& name, std::vector<GivenOrder>& orders) {
+    orders.clear();
+    if (!record.arrays().contains(name + "_steps")) return;
+    const auto& steps = record.get<std::uint64_t>(name + "_steps");
+    const auto& figures = record.get<double>(name + "_figures", 2 * steps.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const double speed = figures[2 * i + 1];
+        const bool stop = std::isnan(speed);
+        orders.push_back({steps[i], figures[2 * i], {stop, stop ? std::nullopt : std::optional(speed)}});
+    }
 }
 
 }  // namespace vkdose

@@ -22,4 +22,8 @@ void get(const Record& record, const std::string& name, Sample& sample);
 void put(Record& record, const std::string& name, const std::vector<Dose>& doses);
 void get(const Record& record, const std::string& name, std::vector<Dose>& doses);
 
+/// Nothing is put where there are no orders.
+void put(Record& record, const std::string& name, const std::vector<GivenOrder>& orders);
+void get(const Record& record, const std::string& name, std::vector<GivenOrder>& orders);
+
 }  // namespace vkdose

@@ -71,6 +71,7 @@ class RunObserver {
     /// Asked at each sample at which the drive conveys and nothing in the case stops it. The drive obeys from this
     /// sample on.
     virtual DriveOrder order() { return {}; }
+    virtual void onOrder(const GivenOrder&) {}
     /// Asked before a call of the backend that follows a reading of the sensors: whether this refill of the case is to
     /// be added now, though its time has not come. Not asked again once it has been added.
     virtual bool wantsRefill(std::size_t refill) {
@@ -102,6 +103,7 @@ struct RunResult {
     std::vector<Dose> doses;
     DoseStatistics statistics;
     std::vector<AddedPowder> added;     ///< in the order of time
+    std::vector<GivenOrder> orders;     ///< that the drive has obeyed, likewise
     double dosedWhileSettling = 0;      ///< [kg]
     std::optional<Settling> settling;   ///< once it is over, if there was any
     std::optional<SettledBed> settled;  ///< the bed at that time

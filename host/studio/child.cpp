@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include "host/core/child_process.h"
 #include "host/core/error.h"
@@ -31,34 +32,45 @@ bool more(int file, std::string& text) {
     return n > 0;
 }
 
+/// Both ends are closed with it, unless they are taken out.
+struct Pipe {
+    int read = -1, write = -1;
+
+    Pipe() = default;
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    ~Pipe() {
+        for (const int end : {read, write})
+            if (end >= 0) ::close(end);
+    }
+    void open() {
+        std::array<int, 2> ends{};
+        if (pipe2(ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
+        read = ends[0];
+        write = ends[1];
+    }
+};
+
 }  // namespace
 
 Child::Child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-             const std::filesystem::path& folder) {
-    std::array<int, 2> out{}, error{};
-    if (pipe2(out.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
-    if (pipe2(error.data(), O_CLOEXEC) != 0) {
-        ::close(out[0]);
-        ::close(out[1]);
-        throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
-    }
+             const std::filesystem::path& folder, bool hears) {
+    std::array<Pipe, 3> pipes;  // standard input, output and error
+    for (std::size_t i = hears ? 0 : 1; i < pipes.size(); ++i) pipes[i].open();
     std::vector<std::string> words{"vkdose"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    out_ = out[0];
-    error_ = error[0];
-    try {
-        process_ = startChild({program, words, vk::usersEnvironment(), out[1], error[1], folder});
-    } catch (const RunError&) {
-        for (const int end : {out[0], out[1], error[0], error[1]}) ::close(end);
-        throw;
-    }
-    ::close(out[1]);
-    ::close(error[1]);
+    process_ =
+        startChild({program, words, vk::usersEnvironment(), pipes[0].read, pipes[1].write, pipes[2].write, folder});
+    in_ = std::exchange(pipes[0].write, -1);
+    out_ = std::exchange(pipes[1].read, -1);
+    error_ = std::exchange(pipes[2].read, -1);
+    // A program that does not read holds up nobody.
+    if (in_ >= 0) (void)fcntl(in_, F_SETFL, O_NONBLOCK);
 }
 
 Child::~Child() {
-    if (out_ >= 0) ::close(out_);
-    if (error_ >= 0) ::close(error_);
+    for (const int end : {in_, out_, error_})
+        if (end >= 0) ::close(end);
     if (process_ == 0) return;
     kill(process_, SIGINT);
     (void)waitForChild(process_);
@@ -66,6 +78,11 @@ Child::~Child() {
 
 void Child::interrupt() const {
     if (process_ != 0) kill(process_, SIGINT);
+}
+
+bool Child::tell(const std::string& line) const {
+    const std::string text = line + "\n";
+    return in_ >= 0 && ::write(in_, text.data(), text.size()) == ssize_t(text.size());
 }
 
 Ended Child::read(const std::function<void(const std::string&)>& line,

@@ -19,9 +19,10 @@ struct Ended {
 
 class Child {
   public:
-    /// Starts the program with these arguments in a folder. Throws RunError if the system starts no more processes.
+    /// Starts the program with these arguments in a folder; with `hears` it can be told lines. Throws RunError if the
+    /// system starts no more processes.
     Child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-          const std::filesystem::path& folder);
+          const std::filesystem::path& folder, bool hears = false);
     ~Child();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
@@ -32,10 +33,12 @@ class Child {
                const std::optional<std::chrono::milliseconds>& limit = {});
     /// As Ctrl-C does. May be called from another thread.
     void interrupt() const;
+    /// Gives it a line on its standard input. Returns false if it takes none now. May be called from another thread.
+    bool tell(const std::string& line) const;
 
   private:
     pid_t process_ = 0;
-    int out_ = -1, error_ = -1;
+    int in_ = -1, out_ = -1, error_ = -1;
 };
 
 }  // namespace vkdose::studio

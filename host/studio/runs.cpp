@@ -35,7 +35,7 @@ void Runs::start(const std::string& name, const std::vector<std::string>& argume
     }
     if (former) former->reader.join();
     auto run = std::make_unique<Run>();
-    run->child = std::make_unique<Child>(program_, arguments, folder_);
+    run->child = std::make_unique<Child>(program_, arguments, folder_, true);
     const std::lock_guard lock(mutex_);
     Run& kept = *(runs_[name] = std::move(run));
     kept.reader = std::thread([this, &kept] { read(kept); });
@@ -59,6 +59,12 @@ bool Runs::stop(const std::string& name) {
     if (found == runs_.end() || !found->second->running) return false;
     found->second->child->interrupt();
     return true;
+}
+
+bool Runs::tell(const std::string& name, const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    const auto found = runs_.find(name);
+    return found != runs_.end() && found->second->running && found->second->child->tell(line);
 }
 
 Runs::State Runs::eventsOf(const std::string& name, std::size_t from, std::chrono::milliseconds patience) {

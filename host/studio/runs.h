@@ -32,6 +32,8 @@ class Runs {
 
     /// As Ctrl-C does. Returns false if no such run is going on.
     bool stop(const std::string& name);
+    /// Gives it a line on its standard input. Returns false likewise, or if it takes none now.
+    bool tell(const std::string& name, const std::string& line);
 
     struct State {
         bool known = false, running = false;

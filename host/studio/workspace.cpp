@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/core/printable.h"
+#include "host/model/parse_toml.h"
 
 namespace vkdose::studio {
 
@@ -13,17 +15,42 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::uintmax_t kMostRead = 1 << 20;  // bytes of a file whose kind is looked for
+
 bool isHidden(const fs::path& file) {
     return file.filename().string().starts_with(".");
 }
 
-/// Folders that hold a run keep their files to themselves.
-bool isRun(const fs::path& folder) {
+/// What a folder holds that keeps its files to itself; nothing for any other.
+std::optional<Workspace::Kind> outputIn(const fs::path& folder) {
     std::error_code code;
-    return fs::is_regular_file(folder / "case.toml", code) && fs::exists(folder / "timeseries.csv", code);
+    if (fs::is_regular_file(folder / "case.toml", code) && fs::exists(folder / "timeseries.csv", code))
+        return Workspace::Kind::Run;
+    if (fs::is_regular_file(folder / "study.toml", code) && fs::exists(folder / "members.csv", code))
+        return Workspace::Kind::Sweep;
+    return std::nullopt;
+}
+
+/// A file that cannot be read, or is none of a study, passes for a case, so that its fault is told when it is opened.
+Workspace::Kind kindOf(const fs::path& file) {
+    std::error_code code;
+    if (fs::file_size(file, code) > kMostRead || code) return Workspace::Kind::Case;
+    return commandOfStudy(fileContent(file).value_or("")) ? Workspace::Kind::Study : Workspace::Kind::Case;
 }
 
 }  // namespace
+
+const char* commandOfStudy(const std::string& text) {
+    std::optional<Node> tree;
+    try {
+        tree = tomlTree(text, "");
+    } catch (const CaseError&) {  // too large
+    }
+    if (!tree) return nullptr;
+    if (tree->child("calibrate")) return "calibrate";
+    if (tree->child("design")) return "design";
+    return tree->child("axis") || tree->child("seeds") || tree->child("set") ? "sweep" : nullptr;
+}
 
 Workspace::Workspace(const fs::path& folder) {
     std::error_code code;
@@ -59,10 +86,11 @@ std::vector<Workspace::Entry> Workspace::entries() const {
         if (isHidden(file) || at->is_symlink(unknown)) {
             at.disable_recursion_pending();
         } else if (at->is_directory(unknown)) {
-            if (at.depth() >= kDepth || isRun(file)) at.disable_recursion_pending();
-            if (isRun(file)) found.push_back({name, true});
+            const auto output = outputIn(file);
+            if (at.depth() >= kDepth || output) at.disable_recursion_pending();
+            if (output) found.push_back({name, *output});
         } else if (file.extension() == ".toml") {
-            found.push_back({name, false});
+            found.push_back({name, kindOf(file)});
         }
     }
     std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });

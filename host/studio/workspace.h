@@ -9,6 +9,9 @@
 
 namespace vkdose::studio {
 
+/// The command that plays a study with this text: "sweep", "calibrate" or "design". Null for a text that is none.
+const char* commandOfStudy(const std::string& text);
+
 class Workspace {
   public:
     /// Throws RunError if there is no such folder.
@@ -20,12 +23,14 @@ class Workspace {
     /// that leads outside by a link, or that has a part which begins with a dot, a backslash or a control character.
     std::optional<std::filesystem::path> inside(const std::string& name) const;
 
+    /// Files of cases and studies, output folders of runs and studies.
+    enum class Kind { Case, Study, Run, Sweep };
     struct Entry {
         std::string name;  ///< relative to the folder, with slashes
-        bool run = false;  ///< an output folder of a run; else a case file
+        Kind kind = Kind::Case;
     };
-    /// Cases and runs below the folder, by their names: at most kMost of them, no deeper than kDepth, none in a hidden
-    /// folder.
+    /// What there is below the folder, by its names: at most kMost of it, no deeper than kDepth, nothing in a hidden
+    /// folder and nothing within a run or a study.
     std::vector<Entry> entries() const;
     static constexpr std::size_t kMost = 2000;
     static constexpr int kDepth = 4;

@@ -100,3 +100,38 @@ TEST_CASE("the events of a run that fails end with the error") {
     CHECK_THAT(o.err, Catch::Contains("overlap"));
     CHECK(box.vkdose("run " + kShort + "--events --quiet").code == 2);
 }
+
+TEST_CASE("a run obeys lines on its standard input, tells what it did, and refuses what is no order") {
+    const Sandbox box;
+    // Read before the first dose; what is for the drive waits for it.
+    box.write("orders.txt",
+              "speed 150\r\ndose 0.005\n\nspeed -3\nspeed fast\nspeed 1e9\ndose 0\nfaster\nstop\nrefill more\n");
+    const std::string command =
+        "cd '" + box.path().string() + "' && '" + programFile() +
+        "' run " VKDOSE_SOURCE_DIR
+        "/cases/mini.toml --backend reference --events --orders --out run < orders.txt > out.txt 2> err.txt";
+    REQUIRE(std::system(command.c_str()) == 0);
+    const std::string out = readText(box / "out.txt");
+    const std::vector<Json> orders = eventsIn(out, "order"), refused = eventsIn(out, "refused");
+    REQUIRE(orders.size() == 2);
+    CHECK(orders[0]["order"] == "speed");
+    CHECK(orders[0]["speed_rpm"].get<double>() == Catch::Detail::Approx(150));
+    CHECK(orders[1]["order"] == "stop");
+    CHECK(orders[1]["time_s"] > orders[0]["time_s"]);
+    std::vector<std::string> lines;
+    for (const Json& r : refused) lines.push_back(r["order"]);
+    CHECK(lines ==
+          std::vector<std::string>{"speed -3", "speed fast", "speed 1e9", "dose 0", "faster", "stop", "refill more"});
+    CHECK_THAT(refused[5]["why"].get<std::string>(), Catch::Contains("does not turn"));
+    const std::vector<Json> doses = eventsIn(out, "dose");
+    REQUIRE(doses.size() == 2);
+    CHECK(doses[0]["stopped_by"] == "order");
+    CHECK(doses[0]["stop_mass_kg"].get<double>() >= 5e-6);
+    CHECK(doses[1]["stopped_by"] == "time");
+    // A run that was ordered about says so.
+    const Json summary = Json::parse(readText(box / "run/summary.json"));
+    REQUIRE(summary["orders"].size() == 2);
+    CHECK(summary["orders"][0]["time_s"] == orders[0]["time_s"]);
+    CHECK(summary["orders"][1]["order"] == "stop");
+    CHECK(box.vkdose("run " + kShort + "--orders").code == 2);  // for a program that hears what came of them
+}

@@ -151,6 +151,7 @@ TEST_CASE("no file but host/core/file.cpp opens another one to read") {
                          {"host/app/tell.cpp", "::open(\"/dev/null\""},
                          {"host/app/child_runner.cpp", "::read(child->said, "},
                          {"host/app/film.cpp", "::pread(file, "},
+                         {"host/app/orders.cpp", "::read(file_, "},
                          {"host/studio/child.cpp", "::read(file, "},
                          {"host/output/hdf5.cpp", "H5Fopen("}}) == Uses{});  // of a file in memory
 }

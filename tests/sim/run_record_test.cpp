@@ -109,3 +109,21 @@ TEST_CASE("samples and doses are stored in the order of their columns") {
     record.put("doses_figures", Figures(20));  // one figure more in each, as of another vkdose
     CHECK_THROWS_AS(get(record, "doses", doses), RecordError);
 }
+
+TEST_CASE("orders are stored with their steps, and a record of a run without any has none") {
+    Record record;
+    put(record, "orders", std::vector<GivenOrder>{});
+    CHECK(record.arrays().empty());
+    put(record, "orders", std::vector<GivenOrder>{{40, 0.4, {false, 6.5}}, {90, 0.9, {true, {}}}});
+    CHECK(record.get<std::uint64_t>("orders_steps") == Counts{40, 90});
+    std::vector<GivenOrder> back;
+    get(record, "orders", back);
+    REQUIRE(back.size() == 2);
+    CHECK(back[0].order.speed == 6.5);
+    CHECK_FALSE(back[0].order.stop);
+    CHECK(back[1].time == 0.9);
+    CHECK(back[1].order.stop);
+    CHECK_FALSE(back[1].order.speed.has_value());
+    get(Record{}, "orders", back);
+    CHECK(back.empty());
+}

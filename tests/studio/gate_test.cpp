@@ -2,7 +2,10 @@
 
 #include "host/studio/gate.h"
 
+#include <map>
+
 #include "host/studio/workspace.h"
+
 #include "tests/support/catch.h"
 #include "tests/support/folder.h"
 
@@ -53,15 +56,30 @@ TEST_CASE("a workspace reaches what is inside of it, and nothing by dots, links 
     CHECK_THROWS_WITH(Workspace(outer.path() / "nowhere"), Catch::Contains("there is no folder"));
 }
 
-TEST_CASE("a workspace lists cases and runs, and looks into no run and no hidden folder") {
+TEST_CASE("a workspace lists cases, studies and what they left, and looks into no run and no hidden folder") {
     const Folder folder;
     for (const char* name : {"b.toml", "a.toml", "sub/c.toml", "out/run/case.toml", "out/run/timeseries.csv",
+                             "out/sweep/study.toml", "out/sweep/members.csv", "out/sweep/members/0000/case.toml",
                              ".git/x.toml", "notes.txt", "1/2/3/4/5/deep.toml"}) {
         fs::create_directories((folder.path() / name).parent_path());
         folder.write(name, "");
     }
+    folder.write("b.toml", "base = \"a.toml\"\nseeds = 2\n");
+    const std::map<Workspace::Kind, std::string> kinds{{Workspace::Kind::Case, ""},
+                                                       {Workspace::Kind::Study, "study "},
+                                                       {Workspace::Kind::Run, "run "},
+                                                       {Workspace::Kind::Sweep, "sweep "}};
     std::vector<std::string> names;
-    for (const Workspace::Entry& e : Workspace(folder.path()).entries())
-        names.push_back((e.run ? "run " : "") + e.name);
-    CHECK(names == std::vector<std::string>{"a.toml", "b.toml", "run out/run", "sub/c.toml"});
+    for (const Workspace::Entry& e : Workspace(folder.path()).entries()) names.push_back(kinds.at(e.kind) + e.name);
+    CHECK(names == std::vector<std::string>{"a.toml", "study b.toml", "run out/run", "sweep out/sweep", "sub/c.toml"});
+}
+
+TEST_CASE("a study is told by its tables, and the command that plays it too") {
+    using studio::commandOfStudy;
+    CHECK(std::string(commandOfStudy("[[axis]]\nkey = \"seed\"\n")) == "sweep");
+    CHECK(std::string(commandOfStudy("seeds = 3\n")) == "sweep");
+    CHECK(std::string(commandOfStudy("[calibrate]\n")) == "calibrate");
+    CHECK(std::string(commandOfStudy("[design]\n")) == "design");
+    CHECK(commandOfStudy("seed = 3\n") == nullptr);
+    CHECK(commandOfStudy("[") == nullptr);
 }

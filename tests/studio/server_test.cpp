@@ -125,7 +125,10 @@ TEST_CASE("the workbench reads and writes cases in its folder, and nothing else"
     }
     for (const char* run : {"../work2", "/tmp", "sub/.."}) {
         CAPTURE(run);
-        CHECK(bench.get(std::string("/report?run=") + run)->status == 403);
+        CHECK(bench.get(std::string("/file?name=report.html&run=") + run)->status == 403);
+        CHECK(bench.get(std::string("/api/members?run=") + run)->status == 403);
+        CHECK(bench.post("/api/picture", {{"run", run}})->status == 403);
+        CHECK(bench.post("/api/compare", {{"runs", {run, run}}})->status == 403);
         CHECK(bench.get(std::string("/api/frame?run=") + run)->status == 403);
         CHECK(bench.get(std::string("/api/history?run=") + run)->status == 403);
         CHECK(bench.get(std::string("/api/events?run=") + run)->status == 403);
@@ -149,6 +152,10 @@ TEST_CASE("the workbench checks a text as the command line does, and shows the d
     CHECK(good["figures"]["particles"] == 111);
     CHECK(good["scene"]["particles"] == 111);
     CHECK(good["scene"]["coil"]["pitch"].get<double>() > 0);
+    CHECK(good["scene"]["motion"]["time_s"].size() == 101);
+    CHECK(good["stated"][3] == Json{{"key", "accepted_warnings"}, {"line", 5}, {"text", "\"pinch\""}});
+    CHECK(good["values"]["canister.floor"] == "\"trough\"");
+    CHECK(good["values"].size() > good["stated"].size());
     std::string text = mini();
     text.replace(text.find("mass_g = 0.9"), 12, "mass_g = -3");
     const Json bad = bench.asked("/api/check", {{"name", "my.toml"}, {"text", text}});
@@ -221,7 +228,16 @@ TEST_CASE("a run of the workbench tells its events to who comes early and late, 
     CHECK(frame["frames"]["time_s"].size() == 1);
     CHECK(frame["frames"]["dose"][0] == 2);
     bench.asked("/api/report", {{"run", "out/my"}});
-    CHECK_THAT(bench.get("/report?run=out/my")->body, Catch::Contains("<html"));
+    CHECK_THAT(bench.get("/file?run=out/my&name=report.html")->body, Catch::Contains("<html"));
+    CHECK_THAT(bench.get("/file?run=out/my&name=doses.csv")->get_header_value("Content-Disposition"),
+               Catch::Contains("attachment"));
+    CHECK(bench.get("/file?run=out/my&name=film.mp4")->status == 404);
+    CHECK(bench.get("/file?run=out/my&name=../../my.toml")->status == 403);
+    CHECK(bench.post("/api/compare", {{"runs", {"out/my"}}})->status == 400);
+    fs::copy(folder.path() / "out/my", folder.path() / "out/other");
+    CHECK(bench.asked("/api/compare", {{"runs", {"out/my", "out/other"}}}) ==
+          Json{{"run", "out"}, {"name", "comparison.html"}});
+    CHECK_THAT(bench.get("/file?run=out&name=comparison.html")->body, Catch::Contains("<html"));
 
     // Stopped as soon as it is under way, it goes on where it was.
     bench.asked("/api/run", {{"name", "my.toml"}, {"force", true}});
@@ -237,4 +253,75 @@ TEST_CASE("a run of the workbench tells its events to who comes early and late, 
     bench.asked("/api/resume", {{"run", "out/my"}});
     CHECK_THAT(events(), Catch::Contains("\"code\":0"));
     CHECK(Json::parse(bench.get("/api/history?run=out/my")->body)["doses"] == history["doses"]);
+}
+
+TEST_CASE("one key of a text is changed, and a text that is not TOML is told") {
+    const Folder folder;
+    const Bench bench(folder.path());
+    const auto edit = [&](const Json& body) { return bench.post("/api/edit", body); };
+    CHECK(bench.asked("/api/edit", {{"text", "a = 1  # one\n"}, {"key", "a"}, {"value", "2"}})["text"] ==
+          "a = 2  # one\n");
+    CHECK(bench.asked("/api/edit", {{"text", "a = 1\n"}, {"key", "a"}, {"value", nullptr}})["text"] == "");
+    CHECK(edit({{"text", "a = "}, {"key", "a"}, {"value", "2"}})->status == 422);
+    CHECK(edit({{"text", "a = 1\n"}, {"key", "a"}, {"value", "1 2"}})->status == 422);
+    CHECK(edit({{"text", "a = 1\n"}, {"key", "a.b"}, {"value", "1"}})->status == 422);
+    CHECK(edit({{"text", "a = 1\n"}})->status == 400);
+    CHECK(Json::parse(bench.get("/api/keys")->body)["properties"]["contact"]["properties"].contains("friction"));
+}
+
+TEST_CASE("a mesh is taken with its size, and one that cannot be used is not kept") {
+    const Folder folder;
+    const Bench bench(folder.path());
+    const auto send = [&](const std::string& name, const std::string& content,
+                          const char* type = "application/octet-stream") {
+        return bench.client->Post("/api/mesh?name=" + name, bench.headers, content, type);
+    };
+    const std::string facet = "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const auto good = send("blade.obj", facet);
+    REQUIRE(good->status == 200);
+    const Json told = Json::parse(good->body);
+    CHECK(told["size"] == Json{2.0, 3.0, 5.0});
+    CHECK(told["triangles"] == 4);
+    CHECK(told["closed"] == true);
+    CHECK(fileContent(folder.path() / "blade.obj") == facet);
+    CHECK(send("blade.obj", facet)->status == 200);
+    CHECK(send("blade.obj", facet + "# another\n")->status == 409);
+    CHECK(send("bad.stl", "solid nothing")->status == 422);
+    CHECK(send("my.toml", facet)->status == 422);
+    CHECK(send("../blade.obj", facet)->status == 403);
+    CHECK(send("blade.obj", facet, "text/plain")->status == 415);
+    CHECK(send("large.obj", std::string(33 << 20, ' '))->status == 413);
+    CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
+}
+
+TEST_CASE("a study tells what it will run, its members as they end, and each of them can be opened") {
+    const Folder folder;
+    folder.write("my.toml", mini());
+    const std::string study =
+        "base = \"my.toml\"\n[set]\n\"settle.time_s\" = 0.05\n\"dose.rotate_s\" = 0.1\n\"stop.max_doses\" = "
+        "1\n[[axis]]\nkey = \"contact.friction\"\nvalues = [0.3, 0.5]\n";
+    folder.write("study.toml", study);
+    const Bench bench(folder.path());
+    const Json listed = Json::parse(bench.get("/api/folder")->body);
+    CHECK(listed["cases"] == Json{"my.toml"});
+    CHECK(listed["studies"] == Json{"study.toml"});
+    const Json plan = bench.asked("/api/check", {{"name", "study.toml"}, {"text", study}});
+    CHECK(plan["study"] == "sweep");
+    CHECK(plan["error"] == "");
+    CHECK_THAT(plan["plan"].get<std::string>(), Catch::Contains("contact.friction 0.5"));
+    const Json bad = bench.asked("/api/check", {{"name", "study.toml"}, {"text", study + "step = 3\n"}});
+    CHECK_THAT(bad["error"].get<std::string>(), Catch::Contains("study.toml:9"));
+    CHECK(bench.asked("/api/run", {{"name", "study.toml"}})["run"] == "out/study");
+    httplib::Client listener("http://" + bench.host);
+    listener.set_read_timeout(300);
+    const auto told = listener.Get("/api/events?run=out/study", bench.headers);
+    REQUIRE(told);
+    CHECK_THAT(told->body, Catch::Contains("{\"event\":\"line\",\"text\":") && Catch::Contains("\"code\":0"));
+    const Json members = Json::parse(bench.get("/api/members?run=out/study")->body);
+    CHECK(members["of"] == 2);
+    CHECK(members["columns"][0] == "member");
+    CHECK(Json::parse(bench.get("/api/folder")->body)["sweeps"] == Json{"out/study"});
+    CHECK(Json::parse(bench.get("/api/history?run=out/study")->body)["study"] == true);
+    const Json member = Json::parse(bench.get("/api/history?run=out/study/members/0001")->body);
+    CHECK(member["doses"]["dose"] == Json{1});
 }

@@ -1,5 +1,6 @@
 """The workbench in a real browser: a case by its text, its faults, a run live, stopped and gone on with."""
 
+import json
 import os
 import shutil
 import signal
@@ -25,6 +26,15 @@ if shutil.which("chromedriver") is None:
     sys.exit(77)
 
 FRAMES = "\n[frames]\ninterval_s = 0.02\n"
+STUDY = """base = "my.toml"
+[set]
+"settle.time_s" = 0.05
+"dose.rotate_s" = 0.1
+"stop.max_doses" = 1
+[[axis]]
+key = "contact.friction"
+values = [0.3, 0.5]
+"""
 PATIENCE = 240  # s
 
 
@@ -75,6 +85,9 @@ class Workbench(unittest.TestCase):
             "const t = document.getElementById('text'); t.value = t.value.replace(arguments[0], arguments[1]);"
             "t.dispatchEvent(new Event('input'))", *change)
         self.until(lambda: int(self.data("checked")) > before)
+
+    def text(self):
+        return self.page.execute_script("return document.getElementById('text').value")
 
     def over(self):
         self.until(lambda: self.data("over") == "out/my")
@@ -134,6 +147,95 @@ class Workbench(unittest.TestCase):
         self.assertNotEqual(*colours)
         faults = [line["message"] for line in self.page.get_log("browser") if line["level"] == "SEVERE"]
         self.assertEqual(faults, [])
+
+
+    def test_a_form_is_the_text_in_another_view(self):
+        self.at("as-form").click()
+        self.until(lambda: self.page.find_elements(By.CSS_SELECTOR, "#form-groups details"))
+        self.at("form-find").send_keys("friction")
+        field = self.at("key-contact.wall.friction")
+        self.assertEqual(field.get_attribute("value"), "0.2")
+        self.assertIn("a coefficient, not an angle", self.at("key-contact.wall.friction-meaning").text)
+        before = self.text()
+        checked = int(self.data("checked"))
+        field.send_keys(Keys.CONTROL, "a")
+        field.send_keys("0.31", Keys.ENTER)
+        self.until(lambda: int(self.data("checked")) > checked)
+        self.assertEqual(self.text(), before.replace("[contact.wall]\nfriction = 0.2", "[contact.wall]\nfriction = 0.31"))
+        # A key that is not stated gets a line of its own; a wrong value is told beside it.
+        checked = int(self.data("checked"))
+        field = self.at("key-contact.coil.friction")
+        field.send_keys("-1", Keys.ENTER)
+        self.until(lambda: int(self.data("checked")) > checked)
+        self.assertIn("[contact.coil]\nfriction = -1", self.text())
+        self.until(lambda: self.page.find_elements(By.CSS_SELECTOR, ".key.error #key-contact\\.coil\\.friction"))
+        self.assertFalse(self.at("run").is_enabled())
+        for _ in range(2):
+            self.at("undo").click()
+        self.assertEqual(self.text(), before)
+        self.at("redo").click()
+        self.assertIn("friction = 0.31", self.text())
+
+    def test_a_mesh_becomes_a_body_and_the_motion_is_played(self):
+        facets = "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+        outside = tempfile.TemporaryDirectory()
+        self.addCleanup(outside.cleanup)
+        (Path(outside.name) / "blade.obj").write_text(facets)
+        self.until(lambda: self.data("checked"))
+        self.at("mesh").send_keys(str(Path(outside.name) / "blade.obj"))
+        self.until(lambda: self.at("mesh-unit").is_displayed())
+        self.assertIn("4 triangles, closed", self.at("mesh-facts").text)
+        self.assertIn("mm: 2 \u00d7 3 \u00d7 5 mm", self.at("mesh-choice").text)
+        checked = int(self.data("checked"))
+        self.at("mesh-unit").find_element(By.TAG_NAME, "button").click()
+        self.until(lambda: int(self.data("checked")) > checked)
+        self.assertIn('[[body]]\nname = "blade"\nmesh = "blade.obj"\nunit = "mm"\n', self.text())
+        self.until(lambda: self.page.execute_script("return picture.scene.bodies.map(b => b.name)") == ["blade"])
+        turned = "return picture.scene.coil.rotation.z"
+        self.assertEqual(self.page.execute_script(turned), 0)
+        self.at("play").click()
+        self.until(lambda: int(self.data("moment") or 0) > 5)
+        self.assertNotEqual(self.page.execute_script(turned), 0)
+
+    def test_a_run_is_ordered_about_compared_and_exported(self):
+        self.at("run").click()
+        self.until(lambda: "t = " in self.at("live-state").text)
+        self.at("speed").send_keys("60", Keys.ENTER)
+        self.until(lambda: "60 rpm from" in self.at("order-state").text)
+        self.over()
+        orders = json.loads((self.folder / "out/my/summary.json").read_text())["orders"]
+        self.assertEqual([o["order"] for o in orders], ["speed"])
+        shutil.copytree(self.folder / "out/my", self.folder / "out/other")
+        self.page.refresh()
+        self.until(lambda: self.data("state") == "ready")
+        self.assertFalse(self.at("compare").is_enabled())
+        for box in self.page.find_elements(By.CSS_SELECTOR, "#runs input"):
+            box.click()
+        self.at("compare").click()
+        self.until(lambda: len(self.page.window_handles) == 2)
+        self.page.switch_to.window(self.page.window_handles[1])
+        self.until(lambda: "out/other" in self.page.page_source or "other" in self.page.title)
+        self.page.close()
+        self.page.switch_to.window(self.page.window_handles[0])
+        self.page.find_element(By.CSS_SELECTOR, "#runs button").click()
+        self.until(lambda: "Python lines" in self.at("export").text)
+        self.over()
+        self.page.execute_script("const e = document.getElementById('export'); e.value = 'Python lines'; e.dispatchEvent(new Event('change'))")
+        self.until(lambda: "vkdose.Case" in self.at("python-text").text)
+
+    def test_a_study_from_its_plan_to_a_member(self):
+        (self.folder / "study.toml").write_text(STUDY)
+        self.page.refresh()
+        self.until(lambda: self.data("state") == "ready")
+        self.page.find_element(By.CSS_SELECTOR, "#studies button").click()
+        self.until(lambda: "2 runs planned" in self.at("verdict").text)
+        self.assertIn("contact.friction 0.5", self.at("plan-text").text)
+        self.at("run").click()
+        self.until(lambda: self.data("over") == "out/study")
+        self.until(lambda: self.data("members") == "2")
+        self.page.find_elements(By.CSS_SELECTOR, "#members td button")[1].click()
+        self.until(lambda: self.at("live-name").text == "out/study/members/0001")
+        self.until(lambda: self.page.find_elements(By.CSS_SELECTOR, "#charts h3"))
 
 
 if __name__ == "__main__":

@@ -18,8 +18,10 @@ NAME, TRIES = "browsers", 40
 
 REQUESTS = 30
 SECRET = "a secret outside of the folder"
-PATHS = ("/api/case?name=", "/api/frame?run=", "/api/history?run=", "/api/events?run=", "/report?run=", "/page/", "/")
-POSTS = ("/api/check", "/api/save", "/api/run", "/api/resume", "/api/stop", "/api/report")
+PATHS = ("/api/case?name=", "/api/frame?run=", "/api/history?run=", "/api/events?run=", "/api/members?run=",
+         "/file?name=case.toml&run=", "/file?run=out/my&name=", "/page/", "/")
+POSTS = ("/api/check", "/api/save", "/api/run", "/api/resume", "/api/stop", "/api/report", "/api/edit", "/api/order",
+         "/api/compare", "/api/picture", "/api/mesh?name=../outside.stl", "/api/mesh?name=my.toml")
 ESCAPES = ("../outside.toml", "..%2foutside.toml", "%2e%2e/outside.toml", "sub/../../outside.toml", "link.toml",
            "up/outside.toml", "/etc/passwd", "....//outside.toml", "..\\outside.toml", "my.toml%00.txt", "%", "", ".", "..")
 
@@ -91,7 +93,7 @@ def escape(t, bench):
     else:
         key = urllib.parse.unquote(name)
         body = json.dumps({"name": key, "run": key, "text": "spoilt", "before": t.rng.choice((None, SECRET)),
-                           "force": True}).encode()
+                           "force": True, "runs": [key, key], "order": "speed 1\nstop", "key": key, "value": "1"}).encode()
         answer = bench.ask("POST", t.rng.choice(POSTS), {**bench.good, "Content-Type": "application/json"}, body)
     if answer is not None and (SECRET in answer[1] or "root:" in answer[1]):
         t.found(f"{name} is read")
@@ -123,8 +125,9 @@ def torn(t, bench):
 
 def runs(t, bench):
     """Its own page, in a hurry."""
-    path = t.rng.choice(("/api/run", "/api/stop", "/api/resume", "/api/report"))
-    body = json.dumps({"name": "my.toml", "run": "out/my", "force": t.rng.random() < 0.5}).encode()
+    path = t.rng.choice(("/api/run", "/api/stop", "/api/resume", "/api/report", "/api/order"))
+    body = json.dumps({"name": "my.toml", "run": "out/my", "force": t.rng.random() < 0.5,
+                       "order": t.rng.choice(("speed 60", "dose 0.01", "stop", "nonsense", ""))}).encode()
     bench.ask("POST", path, {**bench.good, "Content-Type": "application/json"}, body)
     bench.ask("GET", t.rng.choice(("/api/frame?run=out/my", "/api/history?run=out/my", "/api/folder")), bench.good)
 
