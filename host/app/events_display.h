@@ -41,7 +41,7 @@ class EventsDisplay : public RunDisplay {
     void onDose(const Dose& dose) override;
     void onRefill(const AddedPowder& powder) override;
     DriveOrder order() override;
-    void onOrder(const GivenOrder& order) override;
+    void onOrder(const GivenOrder& given) override;
     bool wantsRefill(std::size_t refill) override;
     void end(const RunResult& result, ExitCode code, const std::string& error, const std::filesystem::path& output);
     void close() override {}

@@ -54,7 +54,7 @@ void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& s
         bench.allow(textOf(b, "text"));
         return Json::object();
     });
-    post("/api/edit", [&](const Json& b) { return bench.edit(b); });
+    post("/api/edit", [](const Json& b) { return Workbench::edit(b); });
     post("/api/save", [&](const Json& b) { return bench.save(b); });
     post("/api/run", [&](const Json& b) { return bench.start(b); });
     post("/api/resume", [&](const Json& b) { return bench.resume(textOf(b, "run")); });

@@ -32,7 +32,7 @@ class Workbench {
     Json firstText() const;
     Json keys();
     Json check(const std::string& name, const std::string& text) const;
-    Json edit(const Json& body) const;
+    static Json edit(const Json& body);
     Json save(const Json& body) const;
     /// Writes a mesh into the folder, and tells its size in its own units. One that cannot be used is not kept.
     Json mesh(const std::string& name, const std::string& content) const;

@@ -118,7 +118,7 @@ Json Workbench::checkStudy(const fs::path& draft, const fs::path& file, const ch
 }
 
 /// `value` is TOML; null takes the key out.
-Json Workbench::edit(const Json& body) const {
+Json Workbench::edit(const Json& body) {
     const std::string text = textOf(body, "text"), key = textOf(body, "key");
     const bool out = !body.contains("value") || body["value"].is_null();
     try {
