@@ -104,12 +104,16 @@ function rowFor(box, key) {
   meaning.id = `${field.id}-meaning`;
 }
 
+const sought = () => at("form-find").value.trim().toLowerCase();
+
+/// The keys of a table that have what is sought in their name or meaning.
+const fitting = table => table.keys.filter(k => k.path.toLowerCase().includes(sought()) || kindsOf(k.schema).description.toLowerCase().includes(sought()));
+
 function fill(group, table) {
   if (group.filled) return;
   group.filled = true;
-  const found = at("form-find").value.trim().toLowerCase();
-  const fits = key => !found || key.path.toLowerCase().includes(found) || plain(kindsOf(key.schema).description).toLowerCase().includes(found);
-  const keys = table.keys.filter(fits), stated = keys.filter(k => statedText(k.path) !== undefined), others = keys.filter(k => statedText(k.path) === undefined);
+  const found = sought(), keys = fitting(table);
+  const stated = keys.filter(k => statedText(k.path) !== undefined), others = keys.filter(k => statedText(k.path) === undefined);
   stated.forEach(key => rowFor(group, key));
   if (others.length === 0) return;
   if (found || stated.length === 0) return others.forEach(key => rowFor(group, key));
@@ -134,10 +138,9 @@ function drawForm() {
   box.textContent = "";
   const tables = [];
   tablesOf(form.schema, "", "", tables);
-  const found = at("form-find").value.trim().toLowerCase();
+  const found = sought();
   tables.forEach(table => {
-    const hits = table.keys.filter(k => !found || k.path.toLowerCase().includes(found) || plain(kindsOf(k.schema).description).toLowerCase().includes(found));
-    if (hits.length === 0) return;
+    if (fitting(table).length === 0) return;
     const stated = table.keys.filter(k => statedText(k.path) !== undefined).length;
     const group = details(box, table.path, `${table.title}${stated > 0 ? ` · ${stated} stated` : ""}`);
     if (table.keys.some(k => form.faults.some(f => f.key === k.path && f.kind === "error")) || found) group.open = true;

@@ -103,7 +103,7 @@ Json Workbench::members(const std::string& study) const {
     Json rows = Json::array();
     for (std::size_t i = 0; i < std::min(table.rows(), kMostMembers); ++i) {
         Json& row = rows.emplace_back(Json::array());
-        for (const std::string& name : table.names()) row.push_back(printable(table.text(i, name)));
+        for (const std::string& field : table.row(i)) row.push_back(printable(field));
     }
     return {{"columns", table.names()}, {"rows", rows}, {"of", table.rows()}};
 }
