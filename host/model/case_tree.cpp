@@ -57,7 +57,8 @@ Node readWithBase(const std::filesystem::path& file, const Diagnostic& whoAsks,
     return lower;
 }
 
-/// Removes from `lower` the keys that keys of `upper` exclude, so that the upper layer wins.
+/// Removes from `lower` the keys that keys of `upper` exclude, so that the upper layer wins. If it removes all of them,
+/// what is missing afterwards is missing where the winner stands.
 void dropRivals(Node& lower, const Node& upper, std::string_view path) {
     for (const Key* key : keysOf(caseKeys(), path)) {
         const Node* winner = upper.child(key->name);
@@ -67,10 +68,13 @@ void dropRivals(Node& lower, const Node& upper, std::string_view path) {
         const std::string_view was = before != nullptr ? before->string : usual ? key->standard.text : "";
         if (choice && (was.empty() || was == winner->string)) continue;
         for (const std::string& loser : wordsOf(key->losers)) {
-            if (loser == "*")
-                lower.children.clear();
-            else
+            if (loser != "*") {
                 lower.drop(loser);
+                continue;
+            }
+            lower.children.clear();
+            lower.file = winner->file;
+            lower.line = winner->line;
         }
     }
 }

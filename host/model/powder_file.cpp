@@ -82,14 +82,18 @@ void readTables(Section& root, PowderFile& powder) {
     }
 }
 
-/// Drops the powder that `lower` has.
+/// Drops the powder that `lower` has. What is missing afterwards is missing in the file of `spheres`.
 void dropPowder(Node& lower, const Node& spheres) {
     if (Node* particles = lower.child("particles"); particles != nullptr && spheres.child("particles") != nullptr)
         particles->drop("size");
-    if (Node* contact = lower.child("contact"); contact != nullptr && spheres.child("contact") != nullptr)
+    const Node* laws = spheres.child("contact");
+    if (Node* contact = lower.child("contact"); contact != nullptr && laws != nullptr) {
         std::erase_if(contact->children, [](const Node& n) {
             return n.key != "max_overlap_ratio" && n.key.find('-') == std::string::npos;
         });
+        contact->file = laws->file;
+        contact->line = laws->line;
+    }
     if (Node* settle = lower.child("settle"))
         for (const char* key : {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic"}) settle->drop(key);
     if (Node* time = lower.child("time")) time->drop("step_s");

@@ -244,6 +244,27 @@ TEST_CASE("a base file is overridden key by key, faults name the file they stand
     CHECK(std::filesystem::exists(middle));
 }
 
+TEST_CASE("what a choice leaves without a value is missing where the choice stands, not where its table began") {
+    const Folder folder;
+    folder.write("base.toml",
+                 kGoodCase + "[[body]]\nname = \"gate\"\nshape = \"ball\"\nat = [0, 0, 0]\nradius_mm = 2\n");
+    for (const char* choice : {"[contact]\nlaw = \"hertz-mindlin\"\n", "[body.gate]\nshape = \"box\"\n"}) {
+        CAPTURE(choice);
+        const auto upper = folder.write("upper.toml", std::string("base = \"base.toml\"\n") + choice);
+        try {
+            loadCase(upper);
+            FAIL("accepted");
+        } catch (const CaseError& error) {
+            for (const Diagnostic& fault : error.faults()) {
+                CAPTURE(error.what());
+                CHECK(fault.problem == "is missing");
+                CHECK(fault.file == upper.string());
+                CHECK(fault.line == 3);
+            }
+        }
+    }
+}
+
 TEST_CASE("the overlap that stops a run is the case's choice") {
     const std::string file = std::string(VKDOSE_SOURCE_DIR) + "/cases/mini.toml";
     CHECK(loadCase(file, {"contact.max_overlap_ratio=0.35"}).world.maxOverlapRatio == 0.35);

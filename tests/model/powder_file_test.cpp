@@ -159,6 +159,9 @@ TEST_CASE("a powder's file that is none is refused by line and key") {
              {"title = \"Beads\"\n", "title = \"Beads\"\ndraws = \"none.csv\"\n", "draws"},
              {"[contact]", "[kontact]", "contact"},
              {"friction = 0.3", "frictoin = 0.3", "did you mean friction?"},
+             // The case has these keys; the powder takes their place and lacks them.
+             {"friction = 0.3\n", "", "beads.toml:10: contact.friction: is missing"},
+             {"distribution = \"fixed\"\n", "", "beads.toml:6: particles.size.distribution: is missing"},
              {"title = \"Beads\"\n", "title = \"Beads\"\n[coil]\nturns = 3\n", "coil"},
          }) {
         CAPTURE(row.from, row.to);
