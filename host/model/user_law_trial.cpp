@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "host/core/memory_limit.h"
 #include "host/model/law_checks.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
@@ -85,7 +86,8 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
         for (const LawFault& fault : error.faults) refuse(fault.line, fault.problem, fault.remedy);
         return;
     } catch (const DeviceError& error) {
-        reader.fault("contact.law", fmt::format("could not be tried on a device: {}", error.what()),
+        reader.fault("contact.law",
+                     fmt::format("could not be tried on a device: {}{}", error.what(), memoryLimitText()),
                      "or take a law of the program's own, which needs no trial");
         return;
     }

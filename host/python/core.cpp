@@ -16,6 +16,7 @@
 #include "host/backend/vulkan/law_trial.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/memory_limit.h"
 #include "host/model/key.h"
 #include "host/model/powders.h"
 #include "host/output/frame_files.h"
@@ -73,7 +74,7 @@ void translate(std::exception_ptr error) {
     } catch (const RunError& e) {
         raise("RunError", std::string(e.what()));
     } catch (const DeviceError& e) {
-        raise("DeviceError", std::string(e.what()));
+        raise("DeviceError", e.what() + memoryLimitText());
     } catch (const ForkError& e) {
         raise("VkdoseError", std::string(e.what()));
     }

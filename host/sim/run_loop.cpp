@@ -216,7 +216,7 @@ bool RunLoop::phaseEnded() {
     return judge_.over(d.mass, d.particles, active_ + planned());
 }
 
-void RunLoop::fail(StopReason reason, const char* what) {
+void RunLoop::fail(StopReason reason, const std::string& what) {
     result_.reason = reason;
     result_.error = what;
     if (book_.underWay()) closeDose(false);

@@ -57,10 +57,9 @@ class RunLoop {
         } catch (const RunError& e) {
             fail(StopReason::RunError, e.what());
         } catch (const DeviceError& e) {
-            fail(StopReason::DeviceError, e.what());
+            fail(StopReason::DeviceError, e.what() + memoryLimitText());
         } catch (const std::bad_alloc&) {
-            fail(StopReason::RunError,
-                 ("out of memory: use fewer particles or end other programs" + memoryLimitText()).c_str());
+            fail(StopReason::RunError, "out of memory: use fewer particles or end other programs" + memoryLimitText());
         }
     }
 
@@ -136,7 +135,7 @@ class RunLoop {
     /// Returns true if the phase that ended completes a dose and the judge says it was the last one.
     bool phaseEnded();
     /// After an error: keeps the values of the last good sample and closes the dose under way as incomplete.
-    void fail(StopReason reason, const char* what);
+    void fail(StopReason reason, const std::string& what);
     void keepEndState();
     void report();
 

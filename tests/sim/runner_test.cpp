@@ -1,8 +1,11 @@
 #include "host/sim/runner.h"
 
+#include <sys/resource.h>
+
 #include <cmath>
 #include <set>
 
+#include "host/core/memory_limit.h"
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"
 
@@ -278,8 +281,18 @@ TEST_CASE("an error of the backend keeps what was computed and is reported") {
         backend.deviceErrorAt = 50;
         const RunResult r = play(smallCase(), backend, notes);
         CHECK(r.reason == StopReason::DeviceError);
-        CHECK(r.error == "device lost");
+        CHECK(r.error == "device lost" + memoryLimitText());
         CHECK(r.doses.empty());
+    }
+    SECTION("device error of a process whose memory is limited") {
+        rlimit before{};
+        REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
+        const rlimit limit{before.rlim_cur == RLIM_INFINITY ? rlim_t(1) << 60U : before.rlim_cur, before.rlim_max};
+        REQUIRE(setrlimit(RLIMIT_AS, &limit) == 0);
+        backend.deviceErrorAt = 50;
+        const RunResult r = play(smallCase(), backend, notes);
+        REQUIRE(setrlimit(RLIMIT_AS, &before) == 0);
+        CHECK_THAT(r.error, Catch::StartsWith("device lost") && Catch::Contains("(ulimit -v)"));
     }
 }
 
