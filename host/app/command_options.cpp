@@ -31,6 +31,11 @@ CLI::App& addNew(CLI::App& program, NewOptions& options) {
     for (std::size_t i = 0; i < kDeviceTemplates.size(); ++i)
         command.add_flag(fmt::format("--{}", kDeviceTemplates[i].name), options.devices[i],
                          fmt::format("alone: {}", kDeviceTemplates[i].about));
+    for (std::size_t i = 0; i < kStudyTemplates.size(); ++i)
+        command
+            .add_option(fmt::format("--{}", kStudyTemplates[i].command), options.studies[i],
+                        fmt::format("alone: {}", kStudyTemplates[i].about))
+            ->type_name("CASE");
     return command;
 }
 

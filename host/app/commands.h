@@ -11,6 +11,7 @@
 
 #include "host/app/backends.h"
 #include "host/app/command_table.h"
+#include "host/app/new_study.h"
 #include "host/app/new_template.h"
 #include "host/app/time_limit.h"
 #include "host/photo/profile.h"
@@ -28,6 +29,8 @@ struct NewOptions {
     std::vector<std::string> answers;                     ///< to newQuestions(), in their order; empty: not given
     bool ask = false;                                     ///< for what is not given, even if nobody sits at a terminal
     std::array<bool, kDeviceTemplates.size()> devices{};  ///< a device that is ready; then nothing else
+    /// The case of a study that is to be written; then nothing else.
+    std::array<std::filesystem::path, kStudyTemplates.size()> studies;
 };
 
 /// How the members of a sweep run, or the draws of a powder.

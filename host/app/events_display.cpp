@@ -16,6 +16,8 @@ EventsDisplay::EventsDisplay(const Case& c, std::unique_ptr<Orders> orders, std:
 
 void EventsDisplay::begin(const Insertion& filled, const std::filesystem::path& output, const std::string& backend,
                           double from) {
+    Json refills = Json::array();
+    for (const Refill& refill : case_.refills) refills.push_back(refill.name);
     say({{"event", "run"},
          {"case", case_.name},
          {"particles", filled.particles.size()},
@@ -23,6 +25,7 @@ void EventsDisplay::begin(const Insertion& filled, const std::filesystem::path& 
          {"output", std::filesystem::absolute(output).string()},
          {"backend", backend},
          {"version", VKDOSE_VERSION},
+         {"refills", refills},
          {"from_s", jsonNumber(from)}});
 }
 

@@ -14,6 +14,7 @@
 #include "host/app/new_answers.h"
 #include "host/app/new_design.h"
 #include "host/app/new_file.h"
+#include "host/app/new_study.h"
 #include "host/app/new_template.h"
 #include "host/app/speed.h"
 #include "host/app/tell.h"
@@ -86,24 +87,39 @@ NewAnswers answersTo(const NewOptions& options) {
     return answers;
 }
 
-/// The device that is ready and was asked for; null if there is none. Throws UsageError if something else was given
-/// too.
-const DeviceTemplate* deviceOf(const NewOptions& options) {
+/// What is written as it is: a device or a study. Both null if neither was asked for.
+struct Ready {
     const DeviceTemplate* device = nullptr;
-    std::string given = options.ask ? "--ask" : "";
+    const StudyTemplate* study = nullptr;
+    std::filesystem::path base;  ///< of the study
+};
+
+/// Throws UsageError if something else was given too.
+Ready readyOf(const NewOptions& options) {
+    Ready ready;
+    std::string name, given = options.ask ? "--ask" : "";
+    const auto take = [&](const char* option) {
+        if (!name.empty()) given = "--" + name;
+        name = option;
+    };
     const auto questions = newQuestions();
     for (std::size_t i = 0; i < questions.size(); ++i)
         if (!options.answers[i].empty()) given = questions[i].option;
     for (std::size_t i = 0; i < kDeviceTemplates.size(); ++i) {
         if (!options.devices[i]) continue;
-        if (device != nullptr) given = fmt::format("--{}", device->name);
-        device = &kDeviceTemplates[i];
+        ready.device = &kDeviceTemplates[i];
+        take(ready.device->name);
     }
-    if (device != nullptr && !given.empty())
-        throw UsageError(fmt::format("new: --{} and {}: a device that is ready is changed in its file; give it alone{}",
-                                     device->name, given,
-                                     given == "--powder" ? ", and the powder to `vkdose run`" : ""));
-    return device;
+    for (std::size_t i = 0; i < kStudyTemplates.size(); ++i) {
+        if (options.studies[i].empty()) continue;
+        ready.study = &kStudyTemplates[i];
+        ready.base = options.studies[i];
+        take(ready.study->command);
+    }
+    if (!name.empty() && !given.empty())
+        throw UsageError(fmt::format("new: --{} and {}: what is ready is changed in its file; give it alone{}", name,
+                                     given, given == "--powder" ? ", and the powder to `vkdose run`" : ""));
+    return ready;
 }
 
 void tellDesign(const NewDesign& d, const Case& c, const std::filesystem::path& file) {
@@ -146,8 +162,10 @@ Case caseOf(const NewDesign& design, const std::filesystem::path& file) {
 
 int newCommand(const NewOptions& options) {
     requireNewFile(options.file);
-    if (const DeviceTemplate* device = deviceOf(options)) {
-        writeTemplate(*device, options.file);
+    const Ready ready = readyOf(options);
+    if (ready.device != nullptr || ready.study != nullptr) {
+        if (ready.device != nullptr) writeTemplate(*ready.device, options.file);
+        if (ready.study != nullptr) writeStudy(*ready.study, ready.base, options.file);
         return kOk;
     }
     NewDesign design = designOf(answersTo(options), options.file);

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "host/core/error.h"
+#include "host/core/memory_limit.h"
 
 namespace vkdose {
 
@@ -62,7 +63,7 @@ pid_t startChild(ChildStart start) {
     pid_t process = 0;
     const int fault = posix_spawn(&process, start.program.c_str(), &around.files_, &around.attributes_,
                                   pointers(start.words).data(), pointers(start.variables).data());
-    if (fault != 0) throw RunError(fmt::format("cannot start another process: {}", std::strerror(fault)));
+    if (fault != 0) throw RunError(fmt::format("cannot start another process: {}", faultText(fault)));
     return process;
 }
 

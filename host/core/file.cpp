@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "host/core/error.h"
+#include "host/core/memory_limit.h"
 #include "host/core/output_file.h"
 
 namespace vkdose {
@@ -39,7 +40,7 @@ const char* kindOf(fs::file_type type) {
 }
 
 std::string refusedBy(const fs::path& file, int why) {
-    return fmt::format("{} cannot be read: {}", shortenedPath(file.string()), std::strerror(why));
+    return fmt::format("{} cannot be read: {}", shortenedPath(file.string()), faultText(why));
 }
 
 /// Writes into an open file and closes it. Returns false, with errno set, if that fails.
@@ -73,7 +74,7 @@ void removeEmptyFolder(const fs::path& folder) {
 
 std::string writeFault(const fs::path& file) {
     const int why = errno;
-    std::string text = fmt::format("cannot write {}: {}", file.string(), std::strerror(why));
+    std::string text = fmt::format("cannot write {}: {}", file.string(), faultText(why));
     std::error_code code;
     if (why == ENOSPC || why == EDQUOT || why == EFBIG) text += "; make room";
     if (why == ENOENT && file.has_parent_path() && !fs::exists(file.parent_path(), code))
@@ -130,8 +131,8 @@ std::string InputFile::rest(std::uint64_t most) {
         try {
             bytes.resize(before + wanted);
         } catch (const std::bad_alloc&) {
-            throw ReadError(fmt::format("{} cannot be read: there is no memory for its {} MiB",
-                                        shortenedPath(file_.string()), all >> 20U));
+            throw ReadError(fmt::format("{} cannot be read: there is no memory for its {} MiB{}",
+                                        shortenedPath(file_.string()), all >> 20U, memoryLimitText()));
         }
         const std::size_t n = read(bytes.data() + before, wanted);
         bytes.resize(before + n);
@@ -149,7 +150,7 @@ std::uint64_t InputFile::size() const {
 void InputFile::fail() const {
     const int why = errno;
     const std::string name = shortenedPath(file_.string());
-    throw ReadError(fmt::format("{} cannot be read from byte {} on: {}", name, at_, std::strerror(why)));
+    throw ReadError(fmt::format("{} cannot be read from byte {} on: {}", name, at_, faultText(why)));
 }
 
 InputFile::InputFile(InputFile&& other) noexcept

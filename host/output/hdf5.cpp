@@ -6,14 +6,21 @@
 #include <numeric>
 #include <utility>
 
+#include "host/core/memory_limit.h"
+
 namespace vkdose::hdf5 {
 
 namespace {
 
 constexpr std::size_t kIncrement = 1 << 20;  // by which a file in memory grows [bytes]
 
+/// It does not tell why. Want of memory is the likeliest where that is limited.
+[[noreturn]] void fail(const std::string& what) {
+    throw Error("HDF5 failed at " + what + memoryLimitText());
+}
+
 void check(herr_t status, const std::string& what) {
-    if (status < 0) throw Error("HDF5 failed at " + what);
+    if (status < 0) fail(what);
 }
 
 template <class T>
@@ -86,7 +93,7 @@ Handle openDataset(hid_t file, const std::string& path) {
 std::size_t length(hid_t dataset, const std::string& path) {
     const Handle space(H5Dget_space(dataset), H5Sclose, path);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
-    if (count < 0) throw Error("HDF5 failed at " + path);
+    if (count < 0) fail(path);
     constexpr double kMostPacked = 1032;  // bytes that deflate makes of one, at most
     const Handle type(H5Dget_type(dataset), H5Tclose, path), file(H5Iget_file_id(dataset), H5Fclose, path);
     hsize_t whole = 0;
@@ -126,7 +133,7 @@ bool threadSafe() {
 }
 
 Handle::Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
-    if (id < 0) throw Error("HDF5 failed at " + what);
+    if (id < 0) fail(what);
 }
 
 Handle::~Handle() {
@@ -215,9 +222,9 @@ template void Writer::attribute(const std::string&, const std::string&, const st
 std::string Writer::image() {
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flushing");
     const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
-    if (size < 0) throw Error("HDF5 failed at the file's image");
+    if (size < 0) fail("the file's image");
     std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (H5Fget_file_image(file_, bytes.data(), bytes.size()) < 0) throw Error("HDF5 failed at the file's image");
+    if (H5Fget_file_image(file_, bytes.data(), bytes.size()) < 0) fail("the file's image");
     return bytes;
 }
 
@@ -244,7 +251,7 @@ Record Reader::record(const std::string& path) const {
             return H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, to, size, H5P_DEFAULT);
         };
         const ssize_t size = nameOf(nullptr, 0);
-        if (size < 0) throw Error("HDF5 failed at " + path);
+        if (size < 0) fail(path);
         std::string name(static_cast<std::size_t>(size) + 1, '\0');
         nameOf(name.data(), name.size());
         name.pop_back();

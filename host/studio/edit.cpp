@@ -22,12 +22,18 @@ bool isListOfTables(const Node& node) {
     return node.kind == Node::Kind::Array && !node.children.empty() && node.children.front().kind == Node::Kind::Table;
 }
 
+/// A name as it stands in a path: one with a dot, a key of a case within a study, is quoted.
+std::string asStep(const std::string& name) {
+    return name.find('.') == std::string::npos ? name : '"' + name + '"';
+}
+
 void gather(const Node& node, const std::string& path, std::vector<Stated>& all) {
     if (isListOfTables(node)) {
         for (std::size_t i = 0; i < node.children.size(); ++i)
             gather(node.children[i], fmt::format("{}[{}]", path, i), all);
     } else if (node.kind == Node::Kind::Table) {
-        for (const Node& child : node.children) gather(child, path.empty() ? child.key : path + "." + child.key, all);
+        for (const Node& child : node.children)
+            gather(child, path.empty() ? asStep(child.key) : path + "." + asStep(child.key), all);
     } else {
         all.push_back({path, node.line, valueText(node)});
     }
@@ -53,9 +59,12 @@ struct Step {
 std::vector<Step> stepsOf(const std::string& path) {
     std::vector<Step> steps;
     for (std::size_t at = 0; at <= path.size();) {
-        const std::size_t end = std::min(path.find('.', at), path.size());
+        const bool quoted = path[at] == '"';
+        const std::size_t end = std::min(path.find('.', quoted ? path.find('"', at + 1) : at), path.size());
         Step step{path.substr(at, end - at), {}};
-        if (const std::size_t open = step.name.find('['); open != std::string::npos) {
+        if (quoted && step.name.size() > 1 && step.name.ends_with('"')) {
+            step.name = step.name.substr(1, step.name.size() - 2);
+        } else if (const std::size_t open = step.name.find('['); open != std::string::npos) {
             std::size_t place = 0;
             std::from_chars(step.name.data() + open + 1, step.name.data() + step.name.size(), place);
             step.place = place;
@@ -81,7 +90,7 @@ const Node* nodeAt(const Node& tree, const std::vector<Step>& steps, std::size_t
 /// The name of a table in a header, without places in lists.
 std::string headerOf(const std::vector<Step>& steps, std::size_t count) {
     std::string name;
-    for (std::size_t i = 0; i < count; ++i) name += (i == 0 ? "" : ".") + steps[i].name;
+    for (std::size_t i = 0; i < count; ++i) name += (i == 0 ? "" : ".") + asStep(steps[i].name);
     return name;
 }
 
@@ -179,7 +188,7 @@ bool insertTable(Attempt& attempt, const std::string& header, std::size_t from, 
 
 bool insertKey(Attempt& attempt, const Node& tree, const std::vector<Step>& steps, const std::string& value) {
     const std::size_t above = steps.size() - 1;
-    const std::string entry = steps.back().name + " = " + value;
+    const std::string entry = asStep(steps.back().name) + " = " + value;
     if (above == 0) return (hasOwnKeys(tree) && insertIn(attempt, tree, entry)) || insertAbove(attempt, entry);
     const std::string header = headerOf(steps, above);
     if (const Node* table = nodeAt(tree, steps, above)) {
@@ -219,7 +228,7 @@ std::optional<std::string> edited(const std::string& text, const std::string& ke
     if (!value)
         (void)removeKey(attempt, *old);
     else if (old != nullptr)
-        (void)replaceValue(attempt, *old, steps.back().name, *value);
+        (void)replaceValue(attempt, *old, asStep(steps.back().name), *value);
     else
         (void)insertKey(attempt, tree, steps, *value);
     return attempt.found;

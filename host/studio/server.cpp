@@ -43,8 +43,7 @@ void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& s
     };
     get("/api/folder", [&](const Request&) { return bench.folder(); });
     get("/api/case", [&](const Request& r) { return bench.read(r.get_param_value("name")); });
-    get("/api/first", [&](const Request&) { return bench.firstText(); });
-    get("/api/keys", [&](const Request&) { return bench.keys(); });
+    get("/api/keys", [&](const Request& r) { return bench.keys(r.has_param("study")); });
     get("/api/running", [&](const Request&) { return bench.running(); });
     get("/api/history", [&](const Request& r) { return bench.history(r.get_param_value("run")); });
     get("/api/members", [&](const Request& r) { return bench.members(r.get_param_value("run")); });
@@ -55,6 +54,7 @@ void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& s
         return Json::object();
     });
     post("/api/edit", [](const Json& b) { return Workbench::edit(b); });
+    post("/api/new", [&](const Json& b) { return bench.make(b); });
     post("/api/save", [&](const Json& b) { return bench.save(b); });
     post("/api/run", [&](const Json& b) { return bench.start(b); });
     post("/api/resume", [&](const Json& b) { return bench.resume(textOf(b, "run")); });

@@ -1,6 +1,6 @@
 // The case as text: checked while it is typed, undone, saved.
 
-const open = {name: null, saved: null, checked: 0, past: [], future: []};
+const open = {name: null, saved: null, checked: 0, past: [], future: [], left: new Map()};
 
 const kCheckAfter = 350;  // ms without a key
 let waiting = 0;
@@ -82,8 +82,9 @@ async function check() {
   const done = () => { document.documentElement.dataset.checked = String(number); };
   at("law").hidden = !found.law;
   at("plan").hidden = !found.study;
-  at("as-form").disabled = Boolean(found.study);
-  if (found.law || found.study) at("faults").textContent = "";
+  showNew();
+  at("as-form").disabled = Boolean(found.law);
+  if (found.law) at("faults").textContent = "";
   if (found.law) {
     at("law-name").textContent = found.law.file;
     at("law-text").textContent = found.law.text;
@@ -92,10 +93,10 @@ async function check() {
     return done();
   }
   if (found.study) {
-    showStudyPlan(found);
+    await showStudyPlan(found);
     return done();
   }
-  showForm(found, showFaults(found));
+  await showForm(found, showFaults(found), false);
   showFigures(found);
   if (found.scene) {
     at("view-name").textContent = "Before the run";
@@ -140,10 +141,14 @@ function typed() {
   afterChange();
 }
 
-function afterChange() {
+function showSteps() {
   at("save").disabled = at("text").value === open.saved;
   at("undo").disabled = open.past.length === 0;
   at("redo").disabled = open.future.length === 0;
+}
+
+function afterChange() {
+  showSteps();
   numberLines([]);
   clearTimeout(waiting);
   waiting = setTimeout(tried(() => {
@@ -157,11 +162,14 @@ function afterChange() {
 async function openCase(name) {
   if (open.name && at("text").value !== open.saved && !window.confirm(`${open.name} has changes that are not saved. Drop them?`)) return;
   const {text} = await ask(`/api/case?${about(name)}`);
-  Object.assign(open, {name, saved: text, known: text, past: [], future: [], typing: false});
+  if (open.name) open.left.set(open.name, {past: open.past, future: open.future, text: at("text").value});
+  const before = open.left.get(name) || {past: [], future: [], text};
+  Object.assign(open, {name, saved: text, known: text, past: before.past, future: before.future, typing: false});
+  if (before.text !== text) remember(before.text);  // a text that was dropped, or changed by another program meanwhile
   at("text").value = text;
   at("case-name").textContent = name;
   at("case").hidden = false;
-  ["save", "undo", "redo"].forEach(id => { at(id).disabled = true; });
+  showSteps();
   say("");
   mark();
   history.replaceState(null, "", `#${about(name)}`);
@@ -181,11 +189,24 @@ async function make(event) {
   event.preventDefault();
   let name = at("new-name").value.trim();
   if (!name.endsWith(".toml")) name += ".toml";
-  const {text} = await ask("/api/first");
-  await ask("/api/save", {name, text, before: null});
+  const answers = {};
+  document.querySelectorAll("#new-canister input, #new-canister select").forEach(field => {
+    if (field.value.trim()) answers[field.name] = field.value.trim();
+  });
+  await ask("/api/new", Object.assign(answers, {name, like: at("new-like").value, of: open.name || ""}));
   at("new-name").value = "";
   await list();
   await openCase(name);
+}
+
+const kStudies = ["sweep", "calibrate", "design"];
+
+/// What is asked of a new case besides its name.
+function showNew() {
+  const like = at("new-like").value, study = kStudies.includes(like);
+  at("new-canister").hidden = at("new-canister").disabled = like !== "canister";
+  at("new-of").hidden = !study;
+  at("new-of").textContent = !study ? "" : open.name && at("plan").hidden ? `of ${open.name}` : "open the case first that it is to vary";
 }
 
 function beginCase() {
@@ -196,6 +217,7 @@ function beginCase() {
   at("redo").addEventListener("click", () => turnBack(open.future, open.past));
   at("allow").addEventListener("click", tried(() => ask("/api/allow", {text: at("law-text").textContent}).then(check)));
   at("new").addEventListener("submit", tried(make));
+  at("new-like").addEventListener("change", showNew);
   document.addEventListener("keydown", event => {
     if (!(event.ctrlKey || event.metaKey) || !open.name) return;
     const key = event.key.toLowerCase();

@@ -49,7 +49,7 @@ async function list() {
 }
 
 async function begin() {
-  [beginCase, beginForm, beginPicture, beginRuns].forEach(part => part());
+  [beginCase, beginForm, beginPicture, beginRuns, beginStudies].forEach(part => part());
   const found = await list();
   const wanted = decodeURIComponent(location.hash.replace(/^#name=/, ""));
   const all = found.cases.concat(found.studies);

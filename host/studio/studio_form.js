@@ -1,7 +1,9 @@
 // The case as a form: every key with its unit, default, bounds and meaning. It is another view of the text: a field that is
 // changed changes its line, and nothing else of the text.
 
-const form = {schema: null, stated: [], values: {}, faults: [], shown: new Set()};
+const form = {schemas: {}, ofStudy: false, stated: [], values: {}, faults: [], shown: new Set()};
+
+const schemaNow = () => form.schemas[form.ofStudy];
 
 /// What a schema allows, where it allows several forms: that of a list of tables, or the first.
 const formOf = schema => (schema.anyOf ? schema.anyOf.find(s => s.type === "array" && s.items && s.items.properties) || schema.anyOf[0] : schema);
@@ -27,6 +29,9 @@ function tablesOf(schema, path, title, tables) {
       }));
     else keys.push({name, path: full, schema: value});
   });
+  // A table of keys that are the user's choice, as [set] of a study, shows those that are stated.
+  if (formOf(schema).additionalProperties === true)
+    form.stated.filter(s => s.key.startsWith(`${path}.`)).forEach(s => keys.push({name: s.key.slice(path.length + 1), path: s.key, schema: {}}));
   if (keys.length > 0) tables.push({path, title: title || "the case", keys});
   within.forEach(go => go());
 }
@@ -133,11 +138,11 @@ function details(box, name, title) {
 }
 
 function drawForm() {
-  if (at("form").hidden || !form.schema) return;
+  if (at("form").hidden || !schemaNow()) return;
   const box = at("form-groups"), active = document.activeElement, key = active && active.dataset ? active.dataset.key : null;
   box.textContent = "";
   const tables = [];
-  tablesOf(form.schema, "", "", tables);
+  tablesOf(schemaNow(), "", "", tables);
   const found = sought();
   tables.forEach(table => {
     if (fitting(table).length === 0) return;
@@ -151,20 +156,33 @@ function drawForm() {
 }
 
 /// What the check has found, for the form.
-function showForm(found, faults) {
-  form.stated = found.errors.some(f => f.text.startsWith("not TOML")) ? form.stated : found.stated;
-  if (found.errors.length === 0) form.values = found.values;
-  form.faults = faults;
+async function showForm(found, faults, ofStudy) {
+  form.stated = faults.some(f => f.text.startsWith("not TOML")) ? form.stated : found.stated;
+  if (!faults.some(f => f.kind === "error")) form.values = found.values || {};
+  Object.assign(form, {faults, ofStudy});
+  if (!at("form").hidden) await fetchKeys();
   drawForm();
 }
 
+/// The lists of tables that a schema has, those within a table too.
+function listsOf(schema, path) {
+  return d3.merge(Object.entries(formOf(schema).properties).map(([name, value]) => {
+    const full = path ? `${path}.${name}` : name;
+    return isList(value) ? [full] : isTable(value) ? listsOf(value, full) : [];
+  }));
+}
+
+async function fetchKeys() {
+  const ofStudy = form.ofStudy;
+  if (!form.schemas[ofStudy]) form.schemas[ofStudy] = await ask(`/api/keys${ofStudy ? "?study=1" : ""}`);
+  const lists = at("form-list");
+  lists.textContent = "";
+  add(lists, "option", "choose").value = "";
+  listsOf(schemaNow(), "").forEach(name => add(lists, "option", name));
+}
+
 async function showAs(asForm) {
-  if (asForm && !form.schema) {
-    form.schema = await ask("/api/keys");
-    const lists = at("form-list");
-    add(lists, "option", "choose").value = "";
-    Object.entries(form.schema.properties).filter(([, s]) => isList(s)).forEach(([name]) => add(lists, "option", name));
-  }
+  if (asForm) await fetchKeys();
   at("edit").hidden = asForm;
   at("form").hidden = !asForm;
   at("as-text").setAttribute("aria-pressed", String(!asForm));
@@ -172,13 +190,21 @@ async function showAs(asForm) {
   drawForm();
 }
 
+/// The key with which a new table begins, where that is not its name.
+const kFirstKeys = {
+  axis: ["key", "contact.friction"],
+  "calibrate.target": ["figure", "dose.mean_kg"], "design.goal": ["figure", "dose.mean_kg"],
+  "calibrate.parameter": ["key", "contact.friction"], "design.parameter": ["key", "contact.friction"],
+};
+
 async function addTable() {
   const list = at("form-list").value;
   if (!list) return;
   at("form-list").value = "";
   const one = `${list}[${countOf(list)}]`;
   form.shown.add(one);
-  await change(`${one}.name`, JSON.stringify(`${list}-${countOf(list) + 1}`));
+  const [key, value] = kFirstKeys[list] || ["name", `${list}-${countOf(list) + 1}`];
+  await change(`${one}.${key}`, JSON.stringify(value));
 }
 
 function beginForm() {

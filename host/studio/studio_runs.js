@@ -32,7 +32,11 @@ function leftText(step) {
 }
 
 function take(event) {
-  if (event.event === "run") live.filled = event.filled_kg;
+  if (event.event === "run") {
+    live.filled = event.filled_kg;
+    showRefills(event.refills);
+  }
+  if (event.event === "refill") refillButtons().filter(b => b.value === event.name).forEach(b => { b.disabled = true; });
   if (event.event === "phase") {
     live.expected = event.expected_steps;
     live.phase = event.phase === "settle" ? "settling" : `dose ${event.dose}, ${event.phase}`;
@@ -54,6 +58,18 @@ function take(event) {
   if (event.event === "line") tellLine(event.text);
   if (event.event === "end") live.end = event;
   if (!live.study) live.drawing = live.drawing || setTimeout(drawRun, 300);
+}
+
+const refillButtons = () => [...at("refills").querySelectorAll("button")];
+
+/// A button for each [[refill]] of the case, which adds it before its time.
+function showRefills(names) {
+  at("refills").textContent = "";
+  names.forEach(name => {
+    const press = add(at("refills"), "button", `Refill ${name}`);
+    Object.assign(press, {type: "button", value: name});
+    press.addEventListener("click", tried(() => order(`refill ${name}`)));
+  });
 }
 
 const kPictureAfter = 1000;  // ms between two pictures
@@ -83,7 +99,7 @@ async function watch(run) {
   at("live").hidden = false;
   at("live-name").textContent = run;
   at("live-state").textContent = "starting";
-  at("order-state").textContent = "";
+  ["order-state", "refills"].forEach(id => { at(id).textContent = ""; });
   ["charts", "told"].forEach(id => { at(id).textContent = ""; });
   at("charts").hidden = live.study;
   at("told").hidden = at("members").hidden = !live.study;

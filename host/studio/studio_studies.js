@@ -1,14 +1,20 @@
 // Studies: what they will run and what it costs, and their members as they end.
 
-function showStudyPlan(found) {
+async function showStudyPlan(found) {
   const lines = found.plan.trim() ? found.plan.trim().split("\n") : [];
   at("plan-text").textContent = lines.join("\n");
   at("view").hidden = true;
-  verdict(found.error ? found.error.trim() : `A study: vkdose ${found.study}, ${lines.filter(l => l.startsWith("member")).length} runs planned.`,
-    found.error ? "contradicts" : "matches");
-  at("run").disabled = Boolean(found.error);
-  const place = found.error.match(/\.toml:(\d+): /);
-  numberLines(place ? [{kind: "error", line: Number(place[1]), file: ""}] : []);
+  await showForm(found, showFaults({errors: found.error.trim().split("\n").filter(l => l).map(l => faultOf(l, open.name)), warnings: []}), true);
+  if (!found.error) verdict(`A study: vkdose ${found.study}, ${lines.filter(l => l.startsWith("member")).length} runs planned.`, "matches");
+}
+
+/// A line that the program has told of a fault: FILE:LINE: KEY: what is wrong; what would be right.
+function faultOf(text, name) {
+  const parts = text.match(/^(.*\.toml):(\d+): (?:([\w.[\]"-]+)(?: = (.*?))?: )?(.*)$/);
+  if (!parts) return {line: 0, file: "", key: "", value: "", text, cure: ""};
+  const [, file, line, key, value, rest] = parts, [problem, ...cure] = rest.split("; ");
+  const own = file === name || file.endsWith(`/${name}`) || !file.includes("/") && name.endsWith(`/${file}`);
+  return {line: Number(line), file: own ? "" : file, key: key || "", value: value || "", text: problem, cure: cure.join("; ")};
 }
 
 const kLines = 500;  // of what a study tells, kept
@@ -29,9 +35,35 @@ function tellLine(text) {
 /// Columns that are the same for all members tell nothing, but for these.
 const kAlways = new Set(["member", "seed", "status"]);
 
+/// Members as points: one column across, another one up.
+function memberChart(columns, rows) {
+  const numbers = columns.map((name, i) => i).filter(i => rows.some(r => r[i] !== "" && isNumber(Number(r[i]))));
+  const varied = numbers.filter(i => !kAlways.has(columns[i]) && new Set(rows.map(r => r[i])).size > 1);
+  const keys = varied.filter(i => columns[i].includes(".")), figures = varied.filter(i => !columns[i].includes("."));
+  const usual = {"member-x": keys[0] ?? columns.indexOf("member"), "member-y": figures.find(i => columns[i] === "mean_dose_kg") ?? figures[0]};
+  ["member-x", "member-y"].forEach(id => {
+    const select = at(id), before = select.value;
+    select.textContent = "";
+    numbers.forEach(i => { add(select, "option", columns[i]).value = String(i); });
+    select.value = numbers.some(i => String(i) === before) && live.axes === live.run ? before : String(usual[id] ?? "");
+  });
+  live.axes = live.run;
+  const [x, y] = ["member-x", "member-y"].map(id => at(id).value), box = at("member-chart");
+  box.textContent = "";
+  drawings.length = 0;
+  if (x === "" || y === "") return;
+  const number = text => (text === "" ? NaN : Number(text));
+  const points = rows.map(r => [number(r[x]), number(r[y])]).filter(p => p.every(isNumber));
+  chart(box, {title: `${columns[y]} by ${columns[x]}`, x: {label: columns[x], pad: true}, y: {label: columns[y], zero: false},
+    series: [{name: columns[y], unnamed: true, colour: "var(--s0)", dots: true, line: false, points}]});
+  drawings.forEach(again => again());
+}
+
 async function showMembers(study) {
   const {columns, rows, of} = await ask(`/api/members?${ofRun(study)}`);
   if (live.run !== study) return;
+  live.table = {columns, rows};
+  memberChart(columns, rows);
   const kept = columns.map((name, i) => i).filter(i => kAlways.has(columns[i]) || new Set(rows.map(r => r[i])).size > 1);
   const [head, body] = [at("members").querySelector("thead"), at("members").querySelector("tbody")];
   head.textContent = body.textContent = "";
@@ -50,4 +82,8 @@ async function showMembers(study) {
   const planned = at("plan-text").textContent.split("\n").filter(l => l.startsWith("member")).length;
   if (live.source && planned > 0) at("progress").value = Math.min(1, of / planned);
   document.documentElement.dataset.members = String(of);
+}
+
+function beginStudies() {
+  at("member-axes").addEventListener("change", () => memberChart(live.table.columns, live.table.rows));
 }

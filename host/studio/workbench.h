@@ -29,8 +29,11 @@ class Workbench {
     // workbench_cases.cpp
     Json folder() const;
     Json read(const std::string& name) const;
-    Json firstText() const;
-    Json keys();
+    /// Writes a new case or study. `like`: "mini", "canister" with `answers`, a device that `vkdose new` has ready, or
+    /// a study over the case `of`.
+    Json make(const Json& body) const;
+    /// The keys of cases or of studies.
+    Json keys(bool ofStudies);
     Json check(const std::string& name, const std::string& text) const;
     static Json edit(const Json& body);
     Json save(const Json& body) const;
@@ -74,7 +77,8 @@ class Workbench {
     std::string done(const std::vector<std::string>& arguments, std::chrono::milliseconds limit) const;
     /// What it says as one JSON object.
     Json asked(const std::vector<std::string>& arguments, std::chrono::milliseconds limit) const;
-    Json checkStudy(const std::filesystem::path& draft, const std::filesystem::path& file, const char* command) const;
+    Json checkStudy(const std::filesystem::path& draft, const std::filesystem::path& file, const std::string& text,
+                    const char* command) const;
 
     Workspace workspace_;
     std::filesystem::path program_, first_;
@@ -82,7 +86,7 @@ class Workbench {
     Runs runs_;
     std::atomic<std::size_t> listeners_{0};
     std::mutex keysLock_;
-    Json keys_;  ///< once somebody has asked
+    Json caseKeys_, studyKeys_;  ///< once somebody has asked
 };
 
 }  // namespace vkdose::studio

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "geometry/mesh.h"
 #include "geometry/mesh_file.h"
 #include "host/core/error.h"
@@ -19,6 +22,21 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr milliseconds kCheckLimit{20000};
+
+// What `vkdose new` has ready, and what it asks of a canister with a coil.
+constexpr const char* kDevices[] = {"screw", "twin-screw", "tray", "wheel", "dosator"};
+constexpr const char* kStudies[] = {"sweep", "calibrate", "design"};
+constexpr const char* kAnswers[] = {"canister", "coil", "fill", "bulk-density", "sizes", "flow", "speed", "dose"};
+
+/// The keys that a text states, with their lines; none of a text that is not TOML, which the errors tell.
+Json statedJson(const std::string& text) {
+    Json stated = Json::array();
+    try {
+        for (const Stated& s : statedIn(text)) stated.push_back({{"key", s.key}, {"line", s.line}, {"text", s.text}});
+    } catch (const CaseError&) {
+    }
+    return stated;
+}
 
 /// A file beside a case for the time of a check, so that paths in the text mean what they will mean.
 class Draft {
@@ -75,14 +93,37 @@ Json Workbench::read(const std::string& name) const {
     return {{"name", name}, {"text", *text}};
 }
 
-Json Workbench::firstText() const {
-    return {{"text", fileContent(first_).value_or("")}};
+Json Workbench::make(const Json& body) const {
+    const std::string name = textOf(body, "name"), like = textOf(body, "like");
+    const fs::path file = caseOf(name);
+    std::error_code code;
+    fs::create_directories(file.parent_path(), code);
+    if (like == "mini") return save({{"name", name}, {"text", fileContent(first_).value_or("")}});
+    const auto isLike = [&](const char* one) { return like == one; };
+    std::vector<std::string> words{"new", file.string()};
+    if (like == "canister") {
+        for (const char* answer : kAnswers)
+            if (body.contains(answer)) words.push_back(fmt::format("--{}={}", answer, textOf(body, answer)));
+    } else if (std::any_of(std::begin(kStudies), std::end(kStudies), isLike)) {
+        const fs::path of = caseOf(textOf(body, "of"));
+        requireAllowed(of);
+        words.push_back(fmt::format("--{}={}", like, of.string()));
+    } else if (std::any_of(std::begin(kDevices), std::end(kDevices), isLike)) {
+        words.push_back("--" + like);
+    } else {
+        throw Refused(400, fmt::format("there is no {} to begin with", printable(like)));
+    }
+    (void)done(words, kCheckLimit);
+    return {{"name", name}};
 }
 
-Json Workbench::keys() {
+Json Workbench::keys(bool ofStudies) {
     const std::lock_guard lock(keysLock_);
-    if (keys_.is_null()) keys_ = asked({"manual", "keys", "--schema"}, kCheckLimit);
-    return keys_;
+    Json& keys = ofStudies ? studyKeys_ : caseKeys_;
+    std::vector<std::string> words{"manual", "keys", "--schema"};
+    if (ofStudies) words.emplace_back("--study");
+    if (keys.is_null()) keys = asked(words, kCheckLimit);
+    return keys;
 }
 
 Json Workbench::check(const std::string& name, const std::string& text) const {
@@ -92,27 +133,24 @@ Json Workbench::check(const std::string& name, const std::string& text) const {
         throw Refused(404, fmt::format("there is no folder for {}", printable(name)));
     const Draft draft(file, text);
     if (const auto law = lawToAskFor(draft.file())) return {{"law", {{"file", law->file}, {"text", law->text}}}};
-    if (const char* command = commandOfStudy(text)) return checkStudy(draft.file(), file, command);
+    if (const char* command = commandOfStudy(text)) return checkStudy(draft.file(), file, text, command);
     Json json = asked({"check", draft.file().string(), "--json", "--assume", "--scene"}, kCheckLimit);
     for (Json& error : json["errors"])
         if (error.value("file", "") == printable(draft.file().string())) error["file"] = "";
     json.erase("file");
-    Json stated = Json::array(), values = Json::object();
-    try {
-        for (const Stated& s : statedIn(text)) stated.push_back({{"key", s.key}, {"line", s.line}, {"text", s.text}});
-        if (json.contains("resolved"))
-            for (const Stated& s : statedIn(json["resolved"].get<std::string>())) values[s.key] = s.text;
-    } catch (const CaseError&) {  // the errors tell it
-    }
+    json["values"] = Json::object();
+    for (const Json& s : statedJson(json.value("resolved", "")))
+        json["values"][s["key"].get<std::string>()] = s["text"];
     json.erase("resolved");
-    json["stated"] = stated;
-    json["values"] = values;
+    json["stated"] = statedJson(text);
     return json;
 }
 
-Json Workbench::checkStudy(const fs::path& draft, const fs::path& file, const char* command) const {
+Json Workbench::checkStudy(const fs::path& draft, const fs::path& file, const std::string& text,
+                           const char* command) const {
     const Said all = said({command, draft.string(), "--dry-run", "--assume"}, kCheckLimit);
     return {{"study", command},
+            {"stated", statedJson(text)},
             {"plan", printableLines(inOwnName(all.text, draft, file))},
             {"error", all.ended.code == 0 ? "" : printableLines(inOwnName(all.ended.error, draft, file))}};
 }

@@ -6,6 +6,7 @@
 #include "host/app/backends.h"
 #include "host/app/exit_code.h"
 #include "host/app/measures.h"
+#include "host/app/new_study.h"
 #include "host/app/new_template.h"
 #include "host/model/body_form.h"
 #include "host/model/case.h"
@@ -105,6 +106,35 @@ TEST_CASE("new: devices that are ready are cases that check has nothing against"
     CHECK_FALSE(std::filesystem::exists(box / "your-tube.csv"));
     refused("a.toml --screw --tray", "--tray and --screw");
     refused("a.toml --screw --speed 20rpm", "--screw and --speed");
+}
+
+TEST_CASE("new: studies over a case are ready to run") {
+    const Sandbox box;
+    REQUIRE(box.vkdose("new tray.toml --tray").code == kOk);
+    fs::create_directory(box / "studies");
+    for (const StudyTemplate& study : kStudyTemplates) {
+        const std::string command = study.command;
+        INFO(command);
+        for (const std::string& base :
+             {box.write("mini.toml", readText(shippedCase("mini.toml"))).string(), std::string("tray.toml")}) {
+            CAPTURE(base);
+            fs::remove(box / "studies/my.toml");
+            const auto made = box.vkdose("new studies/my.toml --" + command + " " + base);
+            CAPTURE(made.err);
+            REQUIRE(made.code == kOk);
+            CHECK_THAT(made.out, Catch::Contains("vkdose " + command + " studies/my.toml --dry-run"));
+            const auto planned = box.vkdose(command + " studies/my.toml --dry-run --assume");
+            CAPTURE(planned.err);
+            CHECK(planned.code == kOk);
+        }
+    }
+    CHECK_THAT(box.vkdose("new a.toml --sweep none.toml").err, Catch::Contains("none.toml"));
+    CHECK_THAT(box.vkdose("new a.toml --sweep mini.toml --screw").err, Catch::Contains("--sweep and --screw"));
+    box.write("still.toml", "base = \"mini.toml\"\n[dose]\nrotate_s = 0\nrest_s = 0\n[stop]\nrule = \"none\"\n");
+    const auto still = box.vkdose("new a.toml --design still.toml");
+    CHECK(still.code == kBadInput);
+    CHECK_THAT(still.err, Catch::Contains("has no doses"));
+    CHECK_FALSE(fs::exists(box / "a.toml"));
 }
 
 TEST_CASE("new: three devices give cases that check has nothing against") {

@@ -6,13 +6,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "host/core/error.h"
 #include "host/core/folder_lock.h"
+#include "host/core/memory_limit.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
+#include "tests/support/limited_memory.h"
 
 using namespace vkdose;
+using vkdose::test::LimitedMemory;
 using vkdose::test::Sandbox;
 namespace fs = std::filesystem;
 
@@ -73,6 +78,13 @@ TEST_CASE("a file that the system does not read is told with the place and the r
                       Catch::EndsWith("round cannot be read: Too many levels of symbolic links"));
     CHECK_THROWS_WITH(entriesOf(box / "round"), Catch::Contains("round cannot be listed: Too many levels"));
     CHECK_FALSE(fileContent(box.write("f", "") / "below"));
+}
+
+TEST_CASE("want of memory is told with the limit on it, and other faults without") {
+    CHECK(faultText(ENOMEM) == std::strerror(ENOMEM) + memoryLimitText());
+    const LimitedMemory limited;
+    CHECK_THAT(faultText(ENOMEM), Catch::StartsWith(std::strerror(ENOMEM)) && Catch::EndsWith("(ulimit -v)"));
+    CHECK(faultText(ENOENT) == std::strerror(ENOENT));
 }
 
 TEST_CASE("a folder is listed whole, and what is no folder holds nothing") {

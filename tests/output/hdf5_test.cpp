@@ -5,6 +5,7 @@
 #include "host/output/frames.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
+#include "tests/support/limited_memory.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -45,6 +46,20 @@ TEST_CASE("a data set that claims more than its file can hold is refused before 
         CHECK_THROWS_WITH(reader.array<double>("/big"),
                           Contains("/big claims 1000000000000 elements of 8 bytes, more than the file can hold"));
     }
+}
+
+TEST_CASE("where memory is limited, a failure of HDF5 tells the limit") {
+    const auto failure = [] {
+        try {
+            const hdf5::Reader reader("no file of HDF5");
+            return std::string("none");
+        } catch (const hdf5::Error& e) {
+            return std::string(e.what());
+        }
+    };
+    CHECK_THAT(failure(), Catch::StartsWith("HDF5 failed") && !Catch::Contains("ulimit"));
+    const LimitedMemory limited;
+    CHECK_THAT(failure(), Catch::StartsWith("HDF5 failed") && Catch::EndsWith("(ulimit -v)"));
 }
 
 TEST_CASE("what packs best is read all the same") {

@@ -1,13 +1,12 @@
 #include "host/sim/runner.h"
 
-#include <sys/resource.h>
-
 #include <cmath>
 #include <set>
 
 #include "host/core/memory_limit.h"
 #include "tests/sim/fake_backend.h"
 #include "tests/support/catch.h"
+#include "tests/support/limited_memory.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -285,13 +284,9 @@ TEST_CASE("an error of the backend keeps what was computed and is reported") {
         CHECK(r.doses.empty());
     }
     SECTION("device error of a process whose memory is limited") {
-        rlimit before{};
-        REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);
-        const rlimit limit{before.rlim_cur == RLIM_INFINITY ? rlim_t(1) << 60U : before.rlim_cur, before.rlim_max};
-        REQUIRE(setrlimit(RLIMIT_AS, &limit) == 0);
+        const LimitedMemory limited;
         backend.deviceErrorAt = 50;
         const RunResult r = play(smallCase(), backend, notes);
-        REQUIRE(setrlimit(RLIMIT_AS, &before) == 0);
         CHECK_THAT(r.error, Catch::StartsWith("device lost") && Catch::Contains("(ulimit -v)"));
     }
 }

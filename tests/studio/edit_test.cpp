@@ -32,11 +32,14 @@ const std::string kText =
     "[body.motion]\n"
     "kind = \"slide\"\n";
 
-std::string with(const std::string& was, const std::string& is) {
-    std::string text = kText;
+std::string replaced(std::string text, const std::string& was, const std::string& is) {
     const std::size_t at = text.find(was);
     REQUIRE(at != std::string::npos);
     return text.replace(at, was.size(), is);
+}
+
+std::string with(const std::string& was, const std::string& is) {
+    return replaced(kText, was, is);
 }
 
 }  // namespace
@@ -85,6 +88,17 @@ TEST_CASE("a key that goes takes its line along, and nothing else") {
     CHECK(edited(kText, "body[0].at", std::nullopt) == with("at = [0, 0,\n  0]  # over two lines\n", ""));
     CHECK(edited(kText, "coil.turns", std::nullopt) == kText);
     CHECK_FALSE(edited(kText, "body[1].inline.b", std::nullopt).has_value());
+}
+
+TEST_CASE("keys of a case within a study are names with dots") {
+    const std::string study =
+        "base = \"mini.toml\"\n[set]\n\"contact.friction\" = 0.5\n[[axis]]\nkey = \"coil.turns\"\n";
+    CHECK(studio::statedIn(study)[1].key == "set.\"contact.friction\"");
+    CHECK(edited(study, "set.\"contact.friction\"", "0.6") == replaced(study, "0.5", "0.6"));
+    CHECK(edited(study, "set.\"contact.friction\"", std::nullopt) ==
+          replaced(study, "\"contact.friction\" = 0.5\n", ""));
+    CHECK(edited(study, "set.\"coil.turns\"", "3") == replaced(study, "[[axis]]", "\"coil.turns\" = 3\n[[axis]]"));
+    CHECK_FALSE(edited(study, "set.\"contact", "3").has_value());
 }
 
 TEST_CASE("what would change more than one value is refused") {
