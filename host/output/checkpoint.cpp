@@ -82,9 +82,7 @@ void restoreMarks(const Record& when, Checkpoint& c) {
     for (std::size_t k = 0; k < c.fields.size(); ++k) c.fields[k].checksum = checksums[3 + k];
 }
 
-}  // namespace
-
-void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
+std::string imageOf(const Checkpoint& c) {
     hdf5::Writer writer;
     writer.text("/program", c.program);
     writer.text("/backend", c.backend);
@@ -99,7 +97,13 @@ void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
     when.putOne("member", c.member);
     when.putOne("keeps_states", std::uint32_t(c.keepsStates ? 1 : 0));
     writer.record("/when", when);
-    const std::string image = writer.image();
+    return writer.image();
+}
+
+}  // namespace
+
+void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& c) {
+    const std::string image = hdf5::made(file, [&] { return imageOf(c); });
     replaceFile(file, head(image) + image);
 }
 

@@ -11,6 +11,7 @@
 #include "host/core/file.h"
 #include "host/model/powders.h"
 #include "host/output/field_row.h"
+#include "host/output/hdf5.h"
 #include "host/output/series.h"
 #include "host/output/vtkhdf.h"
 
@@ -102,7 +103,7 @@ void FieldFiles::write(const FieldSample& f) {
     if (isMap(s)) {
         const std::string name = fmt::format("{}_{:06}{}", s.name, f.number, isVolume(s) ? kVolumeExtension : ".csv");
         if (isVolume(s))  // before the line that names it
-            replaceFile(folder_ / name, image(s, f));
+            replaceFile(folder_ / name, hdf5::made(folder_ / name, [&] { return image(s, f); }));
         else
             writeMap(s, f, name);
         csv.line(when + "," + csvLine({name}));

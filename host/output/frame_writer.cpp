@@ -67,7 +67,7 @@ FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t membe
       world_(c.world),
       kinds_(kindsOf(c)),
       member_(member),
-      walls_(wallsFile(c)),
+      walls_(hdf5::made(folder_ / kWallsFile, [&] { return wallsFile(c); })),
       index_(folder_ / kFramesIndex, csvHeader(kFrameColumns)) {}
 
 FrameWriter::FrameWriter(const fs::path& run, const Case& c, std::uint32_t member, const CsvMark& mark)
@@ -107,11 +107,9 @@ void FrameWriter::write(const Frame& frame) {
     const int number = static_cast<int>(times_.size());
     if (std::exchange(later_, false)) removeFrom(folder_, number);
     if (!walls_.empty()) replaceFile(folder_ / kWallsFile, std::exchange(walls_, ""));
-    try {
-        for (const char* kind : kinds_)
-            replaceFile(folder_ / frameFile(kind, number), content(kind, frame, world_, member_));
-    } catch (const hdf5::Error& e) {
-        throw OutputError(fmt::format("cannot make frame {} of {}: {}", number, folder_.string(), e.what()));
+    for (const char* kind : kinds_) {
+        const fs::path file = folder_ / frameFile(kind, number);
+        replaceFile(file, hdf5::made(file, [&] { return content(kind, frame, world_, member_); }));
     }
     index_.line(
         csvRow(kFrameColumns, FrameEntry{number, frame.step, frame.time, frame.phase, frame.dose, frame.coilAngle}));

@@ -2,12 +2,15 @@
 // The few things of HDF5 that are needed, with owners and errors. Files are built and read in memory. Other code
 // decides how they reach the disk (in one move, checked).
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "host/core/error.h"
 #include "host/core/record.h"
 
 namespace vkdose::hdf5 {
@@ -62,6 +65,16 @@ class Writer {
 
     Handle file_;
 };
+
+/// The bytes of a file, which `make` makes. Throws OutputError, which names the file, if HDF5 refuses.
+template <class Make>
+std::string made(const std::filesystem::path& file, const Make& make) {
+    try {
+        return make();
+    } catch (const Error& e) {
+        throw OutputError(fmt::format("cannot make {}: {}", file.string(), e.what()));
+    }
+}
 
 /// A file in memory that is being read. Throws Error where something is missing.
 class Reader {

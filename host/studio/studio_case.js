@@ -69,8 +69,9 @@ function showFigures(found) {
   list.textContent = "";
   if (!figures) return;
   const rows = kFigures.filter(([, key]) => isNumber(figures[key])).map(([label, key, text]) => ({name: label, value: text(figures[key])}));
-  if (found.run_time && isNumber(found.run_time.seconds)) rows.push({name: "time of the run, about", value: timeText(found.run_time.seconds)});
   factRows(list, rows);
+  if (found.errors.length === 0 && found.run_time && isNumber(found.run_time.seconds))
+    at("verdict").textContent += `${at("verdict").textContent.endsWith(".") ? "" : "."} A run takes about ${timeText(found.run_time.seconds)}.`;
 }
 
 const timeText = s => s < 90 ? `${Math.max(1, Math.round(s))} s` : s < 5400 ? `${Math.round(s / 60)} min` : `${(s / 3600).toFixed(1)} h`;
@@ -100,7 +101,7 @@ async function check() {
   showFigures(found);
   if (found.scene) {
     at("view-name").textContent = "Before the run";
-    at("view-state").textContent = "The powder as it is filled in; colour is the radius.";
+    at("view-state").textContent = "The powder as it is filled in, before it falls; colour is the radius.";
     await showPicture(found.scene, name);
   }
   done();

@@ -1,7 +1,7 @@
 // The case as a form: every key with its unit, default, bounds and meaning. It is another view of the text: a field that is
 // changed changes its line, and nothing else of the text.
 
-const form = {schemas: {}, ofStudy: false, stated: [], values: {}, faults: [], shown: new Set()};
+const form = {schemas: {}, ofStudy: false, stated: [], values: {}, faults: [], shown: new Map()};
 
 const schemaNow = () => form.schemas[form.ofStudy];
 
@@ -111,29 +111,33 @@ function rowFor(box, key) {
 
 const sought = () => at("form-find").value.trim().toLowerCase();
 
-/// The keys of a table that have what is sought in their name or meaning.
-const fitting = table => table.keys.filter(k => k.path.toLowerCase().includes(sought()) || kindsOf(k.schema).description.toLowerCase().includes(sought()));
+const namedSo = key => key.path.toLowerCase().includes(sought());
+
+/// The keys of a table that have what is sought in their name or meaning, those by name first.
+const fitting = table => table.keys.filter(namedSo)
+  .concat(table.keys.filter(k => !namedSo(k) && kindsOf(k.schema).description.toLowerCase().includes(sought())));
 
 function fill(group, table) {
   if (group.filled) return;
   group.filled = true;
   const found = sought(), keys = fitting(table);
   const stated = keys.filter(k => statedText(k.path) !== undefined), others = keys.filter(k => statedText(k.path) === undefined);
+  if (found) return keys.forEach(key => rowFor(group, key));
   stated.forEach(key => rowFor(group, key));
   if (others.length === 0) return;
-  if (found || stated.length === 0) return others.forEach(key => rowFor(group, key));
-  const more = details(group, `${table.path}/more`, `${others.length} more key${others.length === 1 ? "" : "s"}`);
+  if (stated.length === 0) return others.forEach(key => rowFor(group, key));
+  const more = details(group, `${table.path}/more`, `${others.length} more key${others.length === 1 ? "" : "s"}`, false);
   const show = () => { if (more.open && !more.filled) { more.filled = true; others.forEach(key => rowFor(more, key)); } };
   more.addEventListener("toggle", show);
   show();
 }
 
 /// A part that opens and closes, and stays so when the form is made anew.
-function details(box, name, title) {
+function details(box, name, title, usual) {
   const part = add(box, "details");
   add(part, "summary", title);
-  part.open = form.shown.has(name);
-  part.addEventListener("toggle", () => (part.open ? form.shown.add(name) : form.shown.delete(name)));
+  part.open = form.shown.has(name) ? form.shown.get(name) : usual;
+  part.addEventListener("toggle", () => { if (!sought()) form.shown.set(name, part.open); });
   return part;
 }
 
@@ -144,10 +148,11 @@ function drawForm() {
   const tables = [];
   tablesOf(schemaNow(), "", "", tables);
   const found = sought();
+  if (found) tables.sort((a, b) => b.keys.some(namedSo) - a.keys.some(namedSo));
   tables.forEach(table => {
     if (fitting(table).length === 0) return;
     const stated = table.keys.filter(k => statedText(k.path) !== undefined).length;
-    const group = details(box, table.path, `${table.title}${stated > 0 ? ` · ${stated} stated` : ""}`);
+    const group = details(box, table.path, `${table.title}${stated > 0 ? ` · ${stated} stated` : ""}`, stated > 0);
     if (table.keys.some(k => form.faults.some(f => f.key === k.path && f.kind === "error")) || found) group.open = true;
     group.addEventListener("toggle", () => group.open && fill(group, table));
     if (group.open) fill(group, table);
@@ -202,7 +207,7 @@ async function addTable() {
   if (!list) return;
   at("form-list").value = "";
   const one = `${list}[${countOf(list)}]`;
-  form.shown.add(one);
+  form.shown.set(one, true);
   const [key, value] = kFirstKeys[list] || ["name", `${list}-${countOf(list) + 1}`];
   await change(`${one}.${key}`, JSON.stringify(value));
 }

@@ -142,7 +142,8 @@ async function start(force) {
     const {run} = await ask("/api/run", {name: open.name, force: force === true});
     say("");
     if (at("plan").hidden === false) live.studies.add(run);
-    watch(run);
+    await watch(run);
+    at("live").scrollIntoView({block: "nearest"});
   } catch (error) {
     if (error.status !== 409 || force === true || !window.confirm(`${error.message}. Replace it?`)) throw error;
     await start(true);

@@ -35,12 +35,14 @@ function tellLine(text) {
 /// Columns that are the same for all members tell nothing, but for these.
 const kAlways = new Set(["member", "seed", "status"]);
 
+const kDoseFigures = ["mean_dose_kg", "dose.mean_kg"];  // while it goes on, and once it is over
+
 /// Members as points: one column across, another one up.
-function memberChart(columns, rows) {
+function memberChart({columns, keys, rows}) {
   const numbers = columns.map((name, i) => i).filter(i => rows.some(r => r[i] !== "" && isNumber(Number(r[i]))));
   const varied = numbers.filter(i => !kAlways.has(columns[i]) && new Set(rows.map(r => r[i])).size > 1);
-  const keys = varied.filter(i => columns[i].includes(".")), figures = varied.filter(i => !columns[i].includes("."));
-  const usual = {"member-x": keys[0] ?? columns.indexOf("member"), "member-y": figures.find(i => columns[i] === "mean_dose_kg") ?? figures[0]};
+  const figures = varied.filter(i => !keys.includes(columns[i])), dose = figures.find(i => kDoseFigures.includes(columns[i]));
+  const usual = {"member-x": varied.find(i => keys.includes(columns[i])) ?? columns.indexOf("member"), "member-y": dose ?? figures[0]};
   ["member-x", "member-y"].forEach(id => {
     const select = at(id), before = select.value;
     select.textContent = "";
@@ -60,10 +62,10 @@ function memberChart(columns, rows) {
 }
 
 async function showMembers(study) {
-  const {columns, rows, of} = await ask(`/api/members?${ofRun(study)}`);
+  live.table = await ask(`/api/members?${ofRun(study)}`);
   if (live.run !== study) return;
-  live.table = {columns, rows};
-  memberChart(columns, rows);
+  memberChart(live.table);
+  const {columns, rows, of} = live.table;
   const kept = columns.map((name, i) => i).filter(i => kAlways.has(columns[i]) || new Set(rows.map(r => r[i])).size > 1);
   const [head, body] = [at("members").querySelector("thead"), at("members").querySelector("tbody")];
   head.textContent = body.textContent = "";
@@ -85,5 +87,5 @@ async function showMembers(study) {
 }
 
 function beginStudies() {
-  at("member-axes").addEventListener("change", () => memberChart(live.table.columns, live.table.rows));
+  at("member-axes").addEventListener("change", () => memberChart(live.table));
 }

@@ -1,6 +1,7 @@
 // Runs and studies: started, watched, ordered about, stopped and gone on with.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "host/core/csv_table.h"
@@ -25,6 +26,13 @@ constexpr milliseconds kHeartbeat{1000};
 std::string eventOf(const std::string& line) {
     if (line.starts_with("{")) return line;
     return Json{{"event", "line"}, {"text", printable(line)}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The columns of the members' keys, which stand between seed and status.
+std::vector<std::string> keysIn(const fs::path& members) {
+    const std::vector<std::string> names = Table::salvage(members).names();
+    const auto seed = std::find(names.begin(), names.end(), "seed"), status = std::find(seed, names.end(), "status");
+    return seed == names.end() ? std::vector<std::string>() : std::vector<std::string>(seed + 1, status);
 }
 
 }  // namespace
@@ -105,7 +113,7 @@ Json Workbench::members(const std::string& study) const {
         Json& row = rows.emplace_back(Json::array());
         for (const std::string& field : table.row(i)) row.push_back(printable(field));
     }
-    return {{"columns", table.names()}, {"rows", rows}, {"of", table.rows()}};
+    return {{"columns", table.names()}, {"keys", keysIn(folder / "members.csv")}, {"rows", rows}, {"of", table.rows()}};
 }
 
 void Workbench::events(const httplib::Request& request, httplib::Response& response, const std::atomic<bool>& stop) {

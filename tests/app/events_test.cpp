@@ -43,6 +43,7 @@ TEST_CASE("the events of a run are its warnings, phases, samples and doses, and 
     REQUIRE(events.size() > 10);
     CHECK(events.front()["event"] == "run");
     CHECK(events.front()["particles"] == 111);
+    CHECK(events.front()["refills"].empty());
     CHECK(events.front()["from_s"] == 0);
     CHECK(events.back()["event"] == "end");
     CHECK(events.back()["code"] == 0);

@@ -62,6 +62,13 @@ TEST_CASE("where memory is limited, a failure of HDF5 tells the limit") {
     CHECK_THAT(failure(), Catch::StartsWith("HDF5 failed") && Catch::EndsWith("(ulimit -v)"));
 }
 
+TEST_CASE("a file that HDF5 cannot make is told by its name, as what cannot be written") {
+    CHECK(hdf5::made("a.hdf", [] { return std::string("bytes"); }) == "bytes");
+    const auto make = [] { return hdf5::Writer().text("/a", "once"), hdf5::Reader("none").text("/a"); };
+    CHECK_THROWS_AS(hdf5::made("a.hdf", make), OutputError);
+    CHECK_THROWS_WITH(hdf5::made("a.hdf", make), Catch::StartsWith("cannot make a.hdf: HDF5 failed at "));
+}
+
 TEST_CASE("what packs best is read all the same") {
     const std::vector<double> zeros(3'000'001, 0.0), none;
     hdf5::Writer writer;

@@ -144,6 +144,35 @@ TEST_CASE("the workbench reads and writes cases in its folder, and nothing else"
     CHECK_FALSE(fs::exists(outer.path() / "work/large.toml"));
 }
 
+TEST_CASE("the workbench makes what vkdose new makes, in its folder and under a name that is free") {
+    const Folder outer;
+    fs::create_directory(outer.path() / "work");
+    outer.write("outside.toml", mini());
+    const fs::path work = outer.path() / "work";
+    const Bench bench(work);
+    bench.asked("/api/new", {{"name", "first.toml"}, {"like", "mini"}});
+    CHECK(fileContent(work / "first.toml") == mini());
+    bench.asked("/api/new", {{"name", "sub/dosator.toml"}, {"like", "dosator"}});
+    CHECK(fs::exists(work / "sub/dosator-tube.csv"));
+    bench.asked("/api/new",
+                {{"name", "tin.toml"}, {"like", "canister"}, {"canister", "16x14x40mm"}, {"coil", "3x6mm"}});
+    CHECK_THAT(fileContent(work / "tin.toml").value(), Catch::Contains("length_mm = 16"));
+    bench.asked("/api/new", {{"name", "study.toml"}, {"like", "sweep"}, {"of", "sub/dosator.toml"}});
+    CHECK_THAT(fileContent(work / "study.toml").value(), Catch::Contains("base = \"sub/dosator.toml\""));
+
+    const auto refused = [&](const Json& body, int status) {
+        CAPTURE(body.dump());
+        CHECK(bench.post("/api/new", body)->status == status);
+    };
+    for (const char* like : {"mini", "dosator", "canister"}) refused({{"name", "tin.toml"}, {"like", like}}, 409);
+    refused({{"name", "a.toml"}, {"like", "canister"}, {"canister", "16mm --mesh=/etc/passwd"}}, 409);
+    refused({{"name", "a.toml"}, {"like", "--help"}}, 400);
+    refused({{"name", "a.toml"}, {"like", "design"}, {"of", "../outside.toml"}}, 403);
+    refused({{"name", "../a.toml"}, {"like", "tray"}}, 403);
+    refused({{"name", "a.toml"}, {"like", "sweep"}}, 400);
+    CHECK_FALSE(fs::exists(work / "a.toml"));
+}
+
 TEST_CASE("the workbench checks a text as the command line does, and shows the device before anything runs") {
     const Folder folder;
     const Bench bench(folder.path());

@@ -20,7 +20,7 @@ REQUESTS = 30
 SECRET = "a secret outside of the folder"
 PATHS = ("/api/case?name=", "/api/frame?run=", "/api/history?run=", "/api/events?run=", "/api/members?run=",
          "/file?name=case.toml&run=", "/file?run=out/my&name=", "/page/", "/")
-POSTS = ("/api/check", "/api/save", "/api/run", "/api/resume", "/api/stop", "/api/report", "/api/edit", "/api/order",
+POSTS = ("/api/check", "/api/new", "/api/save", "/api/run", "/api/resume", "/api/stop", "/api/report", "/api/edit", "/api/order",
          "/api/compare", "/api/picture", "/api/mesh?name=../outside.stl", "/api/mesh?name=my.toml")
 ESCAPES = ("../outside.toml", "..%2foutside.toml", "%2e%2e/outside.toml", "sub/../../outside.toml", "link.toml",
            "up/outside.toml", "/etc/passwd", "....//outside.toml", "..\\outside.toml", "my.toml%00.txt", "%", "", ".", "..")
@@ -93,7 +93,8 @@ def escape(t, bench):
     else:
         key = urllib.parse.unquote(name)
         body = json.dumps({"name": key, "run": key, "text": "spoilt", "before": t.rng.choice((None, SECRET)),
-                           "force": True, "runs": [key, key], "order": "speed 1\nstop", "key": key, "value": "1"}).encode()
+                           "force": True, "runs": [key, key], "order": "speed 1\nstop", "key": key, "value": "1",
+                           "like": t.rng.choice(("mini", "dosator", "sweep", key)), "of": key}).encode()
         answer = bench.ask("POST", t.rng.choice(POSTS), {**bench.good, "Content-Type": "application/json"}, body)
     if answer is not None and (SECRET in answer[1] or "root:" in answer[1]):
         t.found(f"{name} is read")
