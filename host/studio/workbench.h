@@ -85,6 +85,7 @@ class Workbench {
     AllowedLaws laws_;
     Runs runs_;
     std::atomic<std::size_t> listeners_{0};
+    mutable std::mutex writing_;  ///< between the look at what a file has and its writing, no other page writes
     std::mutex keysLock_;
     Json caseKeys_, studyKeys_;  ///< once somebody has asked
 };

@@ -172,6 +172,7 @@ Json Workbench::edit(const Json& body) {
 Json Workbench::save(const Json& body) const {
     const std::string name = textOf(body, "name"), text = textOf(body, "text");
     const fs::path file = caseOf(name);
+    const std::lock_guard lock(writing_);
     const auto there = fileContent(file);
     const bool fresh = !body.contains("before") || body["before"].is_null();
     if (fresh && there) throw Refused(409, fmt::format("{} is there already; choose another name", printable(name)));
@@ -185,6 +186,7 @@ Json Workbench::save(const Json& body) const {
 
 Json Workbench::mesh(const std::string& name, const std::string& content) const {
     const fs::path file = fileOf(name);
+    const std::lock_guard lock(writing_);
     const auto there = fileContent(file);
     if (there && *there != content)
         throw Refused(409, fmt::format("another {} is there already; rename yours", printable(name)));

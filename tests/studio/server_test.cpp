@@ -2,8 +2,11 @@
 
 #include "host/studio/server.h"
 
+#include <fmt/format.h>
 #include <httplib.h>
 
+#include <algorithm>
+#include <array>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -142,6 +145,29 @@ TEST_CASE("the workbench reads and writes cases in its folder, and nothing else"
     CHECK(bench.get("/nothing")->status == 404);
     CHECK(fileContent(outer.path() / "outside.toml") == "secret");
     CHECK_FALSE(fs::exists(outer.path() / "work/large.toml"));
+}
+
+TEST_CASE("of two pages that save at once one is told that it came too late") {
+    const Folder folder;
+    folder.write("my.toml", "# at first\n");
+    const Bench bench(folder.path());
+    for (int round = 0; round < 40; ++round) {
+        const std::string before = fileContent(folder.path() / "my.toml").value();
+        std::array<int, 2> told{};
+        const auto save = [&](std::size_t page) {
+            httplib::Client client("http://" + bench.host);
+            const Json body{{"name", "my.toml"}, {"text", fmt::format("# {} {}\n", round, page)}, {"before", before}};
+            const auto answer = client.Post("/api/save", bench.headers, body.dump(), "application/json");
+            told[page] = answer ? answer->status : 0;
+        };
+        std::thread other(save, 1);
+        save(0);
+        other.join();
+        CAPTURE(round, told[0], told[1]);
+        CHECK(std::min(told[0], told[1]) == 200);
+        CHECK(std::max(told[0], told[1]) == 409);
+        CHECK(fileContent(folder.path() / "my.toml") == fmt::format("# {} {}\n", round, told[0] == 200 ? 0 : 1));
+    }
 }
 
 TEST_CASE("the workbench makes what vkdose new makes, in its folder and under a name that is free") {

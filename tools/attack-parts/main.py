@@ -22,9 +22,11 @@ import mutations
 import pairs
 import program
 import reads
+import sieges
 from ground import ROOT, Ground, Try
 
-KINDS = {kind.NAME: kind for kind in (kills, mutations, reads, disks, moves, pairs, foreign, limits, forks, browsers)}
+KINDS = {kind.NAME: kind for kind in (kills, mutations, reads, disks, moves, pairs, foreign, limits, forks, browsers,
+                                      sieges)}
 
 
 def options_of(words):
