@@ -108,7 +108,7 @@ void writeStudy(const StudyTemplate& study, const fs::path& base, const fs::path
                         printable(base.string()), study.command));
     const fs::path from = fs::absolute(base).lexically_relative(fs::absolute(file).parent_path());
     const std::string told = study.about;
-    writeNew(file, fmt::format(kHead, "A" + told.substr(1) + ".", study.command, shellWord(file.string()),
+    writeNew(file, fmt::format(kHead, "A" + told.substr(1) + ".", study.command, shellWord(file.filename().string()),
                                tomlString(from.string())) +
                        bodyOf(study, c));
     tell("wrote      {}\n", printable(file.string()));

@@ -32,7 +32,7 @@ function tablesOf(schema, path, title, tables) {
   // A table of keys that are the user's choice, as [set] of a study, shows those that are stated.
   if (formOf(schema).additionalProperties === true)
     form.stated.filter(s => s.key.startsWith(`${path}.`)).forEach(s => keys.push({name: s.key.slice(path.length + 1), path: s.key, schema: {}}));
-  if (keys.length > 0) tables.push({path, title: title || "the case", keys});
+  if (keys.length > 0) tables.push({path, title: title || (form.ofStudy ? "the study" : "the case"), keys});
   within.forEach(go => go());
 }
 

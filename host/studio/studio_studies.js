@@ -5,7 +5,8 @@ async function showStudyPlan(found) {
   at("plan-text").textContent = lines.join("\n");
   at("view").hidden = true;
   await showForm(found, showFaults({errors: found.error.trim().split("\n").filter(l => l).map(l => faultOf(l, open.name)), warnings: []}), true);
-  if (!found.error) verdict(`A study: vkdose ${found.study}, ${lines.filter(l => l.startsWith("member")).length} runs planned.`, "matches");
+  const cost = lines.find(l => l.startsWith("run time"));
+  if (!found.error) verdict(`A study: vkdose ${found.study}, ${lines.filter(l => l.startsWith("member")).length} runs planned${cost ? `; ${cost}` : ""}.`, "matches");
 }
 
 /// A line that the program has told of a fault: FILE:LINE: KEY: what is wrong; what would be right.

@@ -48,6 +48,16 @@ def browser():
     return webdriver.Chrome(options=options)
 
 
+def as_ply(obj):
+    """The corners and triangles of an OBJ as the text of a PLY."""
+    lines = [line.split() for line in obj.splitlines()]
+    corners = [" ".join(line[1:]) for line in lines if line[0] == "v"]
+    faces = ["3 " + " ".join(str(int(i) - 1) for i in line[1:]) for line in lines if line[0] == "f"]
+    return (f"ply\nformat ascii 1.0\nelement vertex {len(corners)}\nproperty float x\nproperty float y\n"
+            f"property float z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+            + "\n".join(corners + faces) + "\n")
+
+
 class Workbench(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -201,6 +211,17 @@ class Workbench(unittest.TestCase):
         self.until(lambda: int(self.data("checked")) > checked)
         self.assertIn('[[body]]\nname = "blade"\nmesh = "blade.obj"\nunit = "mm"\n', self.text())
         self.until(lambda: self.page.execute_script("return picture.scene.bodies.map(b => b.name)") == ["blade"])
+        # Another one is dropped with the mouse; it gets a name of its own.
+        self.page.execute_script(
+            "const files = new DataTransfer(); files.items.add(new File([arguments[0]], 'blade.ply'));"
+            "document.getElementById('view').dispatchEvent("
+            "new DragEvent('drop', {dataTransfer: files, bubbles: true, cancelable: true}))", as_ply(facets))
+        self.until(lambda: self.at("mesh-unit").is_displayed() and self.at("mesh-name").text == "blade.ply")
+        self.at("mesh-unit").find_element(By.TAG_NAME, "button").click()
+        self.until(lambda: 'name = "blade-2"\nmesh = "blade.ply"' in self.text())
+        self.until(lambda: "coincides with body" in self.at("faults").text)
+        self.at("undo").click()
+        self.until(lambda: "can be run" in self.at("verdict").text)
         turned = "return picture.scene.coil.rotation.z"
         self.assertEqual(self.page.execute_script(turned), 0)
         self.at("play").click()
@@ -232,6 +253,9 @@ class Workbench(unittest.TestCase):
         self.over()
         self.page.execute_script("const e = document.getElementById('export'); e.value = 'Python lines'; e.dispatchEvent(new Event('change'))")
         self.until(lambda: "vkdose.Case" in self.at("python-text").text)
+        if shutil.which("ffmpeg"):
+            Select(self.at("export")).select_by_visible_text("film")
+            self.until((self.folder / "out/my/film.mp4").exists)
 
     def test_a_new_device_and_a_study_over_it(self):
         def make(like, name, **answers):
