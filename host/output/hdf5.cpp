@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kIncrement = 1 << 20;  // by which a file in memory grows [bytes]
 
-/// It does not tell why. Want of memory is the likeliest where that is limited.
+/// HDF5 does not tell why. Where memory is limited, want of it is the likeliest reason.
 [[noreturn]] void fail(const std::string& what) {
     throw Error("HDF5 failed at " + what + memoryLimitText());
 }
