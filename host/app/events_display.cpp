@@ -121,7 +121,7 @@ DriveOrder EventsDisplay::order() {
 void EventsDisplay::onOrder(const GivenOrder& given) {
     const auto& speed = given.order.speed;
     say({{"event", "order"},
-         {"order", given.order.stop ? "stop" : "speed"},
+         {"order", orderWord(given.order)},
          {"time_s", jsonNumber(given.time)},
          {"speed_rpm", speed ? jsonNumber(*speed * kRpm.perSI) : Json(nullptr)}});
 }

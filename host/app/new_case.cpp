@@ -163,9 +163,12 @@ Case caseOf(const NewDesign& design, const std::filesystem::path& file) {
 int newCommand(const NewOptions& options) {
     requireNewFile(options.file);
     const Ready ready = readyOf(options);
-    if (ready.device != nullptr || ready.study != nullptr) {
-        if (ready.device != nullptr) writeTemplate(*ready.device, options.file);
-        if (ready.study != nullptr) writeStudy(*ready.study, ready.base, options.file);
+    if (ready.device != nullptr) {
+        writeTemplate(*ready.device, options.file);
+        return kOk;
+    }
+    if (ready.study != nullptr) {
+        writeStudy(*ready.study, ready.base, options.file);
         return kOk;
     }
     NewDesign design = designOf(answersTo(options), options.file);

@@ -139,7 +139,7 @@ Json orders(const std::vector<GivenOrder>& given) {
     Json list = Json::array();
     for (const GivenOrder& o : given)
         list.push_back({{"time_s", jsonNumber(o.time)},
-                        {"order", o.order.stop ? "stop" : "speed"},
+                        {"order", orderWord(o.order)},
                         {"speed_rad_s", o.order.speed ? jsonNumber(*o.order.speed) : Json(nullptr)}});
     return list;
 }

@@ -107,8 +107,9 @@ Json motionJson(const Case& c, const std::vector<Frame>& frames) {
     bool moves = false;
     for (const DrawnBody& drawn : bodiesOf(c)) {
         poses.push_back(posesJson(drawn, c, frames));
+        const geometry::Pose first = poseOf(drawn, c, frames.front());
         for (const Frame& frame : frames) {
-            const geometry::Pose first = poseOf(drawn, c, frames.front()), now = poseOf(drawn, c, frame);
+            const geometry::Pose now = poseOf(drawn, c, frame);
             moves = moves || now.origin != first.origin || now.rotation != first.rotation;
         }
     }

@@ -28,6 +28,11 @@ struct DriveOrder {
     std::optional<double> speed;  ///< conveying, to change to [rad/s]
 };
 
+/// The word of an order in tables and events.
+constexpr const char* orderWord(const DriveOrder& order) {
+    return order.stop ? "stop" : "speed";
+}
+
 /// One that the drive has obeyed.
 struct GivenOrder {
     std::uint64_t step = 0;  ///< made before

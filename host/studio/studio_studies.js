@@ -47,14 +47,14 @@ function memberChart({columns, keys, rows}) {
   ["member-x", "member-y"].forEach(id => {
     const select = at(id), before = select.value;
     select.textContent = "";
-    numbers.forEach(i => { add(select, "option", columns[i]).value = String(i); });
-    select.value = numbers.some(i => String(i) === before) && live.axes === live.run ? before : String(usual[id] ?? "");
+    numbers.forEach(i => { add(select, "option", columns[i]); });
+    select.value = numbers.some(i => columns[i] === before) && live.axes === live.run ? before : columns[usual[id]] ?? "";
   });
   live.axes = live.run;
-  const [x, y] = ["member-x", "member-y"].map(id => at(id).value), box = at("member-chart");
+  const [x, y] = ["member-x", "member-y"].map(id => columns.indexOf(at(id).value)), box = at("member-chart");
   box.textContent = "";
   drawings.length = 0;
-  if (x === "" || y === "") return;
+  if (x < 0 || y < 0) return;
   const number = text => (text === "" ? NaN : Number(text));
   const points = rows.map(r => [number(r[x]), number(r[y])]).filter(p => p.every(isNumber));
   chart(box, {title: `${columns[y]} by ${columns[x]}`, x: {label: columns[x], pad: true}, y: {label: columns[y], zero: false},

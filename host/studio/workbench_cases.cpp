@@ -96,8 +96,6 @@ Json Workbench::read(const std::string& name) const {
 Json Workbench::make(const Json& body) const {
     const std::string name = textOf(body, "name"), like = textOf(body, "like");
     const fs::path file = caseOf(name);
-    std::error_code code;
-    fs::create_directories(file.parent_path(), code);
     if (like == "mini") return save({{"name", name}, {"text", fileContent(first_).value_or("")}});
     const auto isLike = [&](const char* one) { return like == one; };
     std::vector<std::string> words{"new", file.string()};
@@ -113,6 +111,8 @@ Json Workbench::make(const Json& body) const {
     } else {
         throw Refused(400, fmt::format("there is no {} to begin with", printable(like)));
     }
+    std::error_code code;
+    fs::create_directories(file.parent_path(), code);
     (void)done(words, kCheckLimit);
     return {{"name", name}};
 }

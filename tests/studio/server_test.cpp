@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/app/new_study.h"
+#include "host/app/new_template.h"
 #include "host/core/file.h"
 #include "tests/support/catch.h"
 #include "tests/support/folder.h"
@@ -196,7 +198,22 @@ TEST_CASE("the workbench makes what vkdose new makes, in its folder and under a 
     refused({{"name", "a.toml"}, {"like", "design"}, {"of", "../outside.toml"}}, 403);
     refused({{"name", "../a.toml"}, {"like", "tray"}}, 403);
     refused({{"name", "a.toml"}, {"like", "sweep"}}, 400);
+    refused({{"name", "none/a.toml"}, {"like", "--help"}}, 400);
     CHECK_FALSE(fs::exists(work / "a.toml"));
+    CHECK_FALSE(fs::exists(work / "none"));
+
+    // Page and server know all that the command line has ready.
+    const std::string page = bench.get("/")->body;
+    for (const DeviceTemplate& device : kDeviceTemplates) {
+        const std::string name = device.name;
+        CHECK_THAT(page, Catch::Contains("value=\"" + name + "\""));
+        bench.asked("/api/new", {{"name", "each-" + name + ".toml"}, {"like", name}});
+    }
+    for (const StudyTemplate& study : kStudyTemplates) {
+        const std::string name = study.command;
+        CHECK_THAT(page, Catch::Contains("value=\"" + name + "\""));
+        bench.asked("/api/new", {{"name", name + "-tin.toml"}, {"like", name}, {"of", "tin.toml"}});
+    }
 }
 
 TEST_CASE("the workbench checks a text as the command line does, and shows the device before anything runs") {
