@@ -1,20 +1,15 @@
 #include "host/app/child_runner.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <utility>
 
 #include "host/app/exit_code.h"
 #include "host/core/child_process.h"
-#include "host/core/error.h"
 #include "host/core/output_file.h"
 #include "host/vk/driver_variable.h"
 
@@ -58,19 +53,11 @@ std::vector<std::string> ChildRunner::arguments(const MemberTask& task) const {
 }
 
 void ChildRunner::start(const MemberTask& task) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
-    pid_t process = 0;
-    try {
-        // The path of the running program itself, even if its file has been replaced since.
-        process = startChild({"/proc/self/exe", arguments(task), environmentFor(slots_), -1, -1, ends[1]});
-    } catch (const RunError&) {
-        ::close(ends[0]);
-        ::close(ends[1]);
-        throw;
-    }
-    ::close(ends[1]);
-    children_.push_back({task.number, process, ends[0], "", false});
+    Pipe pipe;
+    pipe.open();
+    // The path of the running program itself, even if its file has been replaced since.
+    const pid_t process = startChild({"/proc/self/exe", arguments(task), environmentFor(slots_), -1, -1, pipe.write});
+    children_.push_back({task.number, process, std::exchange(pipe.read, -1), "", false});
 }
 
 std::optional<MemberEnd> ChildRunner::wait() {

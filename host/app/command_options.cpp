@@ -39,25 +39,6 @@ CLI::App& addNew(CLI::App& program, NewOptions& options) {
     return command;
 }
 
-/// How members run. Returns the options.
-std::vector<CLI::Option*> addMemberOptions(CLI::App& command, MemberOptions& options) {
-    auto* jobs = command
-                     .add_option("--jobs", options.jobs,
-                                 "members at once, each in a process of its own (default on a CPU: one for each core)")
-                     ->check(CLI::Range(1, 1024));
-    auto* ensemble =
-        command
-            .add_option("--ensemble", options.ensemble,
-                        "members at once that share the device in an ensemble (default on a GPU: as many as its memory "
-                        "holds)")
-            ->check(CLI::Range(1, 1024))
-            ->excludes(jobs);
-    auto* limit = addFor(command, options.limit);
-    auto* retry = command.add_flag("--retry-failed", options.retryFailed,
-                                   "run the members that failed again, from their checkpoints if these can be read");
-    return {jobs, ensemble, limit, retry};
-}
-
 CLI::App& addRun(CLI::App& program, RunOptions& options) {
     CLI::App& command = *program.add_subcommand("run", "simulate a case and write its output folder");
     addCase(command, options.input).required(false);
@@ -143,45 +124,6 @@ CLI::App& addExportBody(CLI::App& program, ExportBodyOptions& options) {
     command.add_option("--per-turn", options.perTurn, "straight pieces of a full turn, of round bodies too")
         ->check(CLI::Range(4, 10000))
         ->capture_default_str();
-    return command;
-}
-
-/// The options of commands that run members.
-void addMembers(CLI::App& command, SweepOptions& options, const char* out) {
-    command.add_option("--out", options.out, out)->type_name("DIR");
-    addMemberOptions(command, options);
-    addSet(command, options.overrides,
-           "replace a value of every member's case: --set stop.max_doses=2; may be repeated");
-    auto* dry = command.add_flag("--dry-run", options.dryRun,
-                                 "print the members with the time that they take, and write nothing");
-    addAssume(command, options.assume).needs(dry);
-    command.add_flag("--quiet", options.quiet, "print errors only");
-    addBackend(command, options.backend);
-}
-
-CLI::App& addSweep(CLI::App& program, const char* name, const char* what, SweepOptions& options) {
-    CLI::App& command = *program.add_subcommand(name, what);
-    command.add_option("study", options.study, "study file (TOML)")->required();
-    addMembers(command, options, "folder of the sweep (default: out/<name of the study's file> in the current folder)");
-    return command;
-}
-
-CLI::App& addScale(CLI::App& program, ScaleOptions& options) {
-    CLI::App& command = *program.add_subcommand(
-        "scale", "run a case with spheres of several sizes: which figures depend on the size, and from where on");
-    command.add_option("case", options.sweep.study, "case file (TOML), or name of a case")->required();
-    command
-        .add_option("--sizes", options.factors,
-                    "sizes of the spheres over those of the case; all are judged by the smallest")
-        ->delimiter(',')
-        ->type_name("FLOAT,...")
-        ->default_str("1,1.5,2,3");
-    command.add_option("--seeds", options.seeds, "runs of each size")->check(CLI::Range(1, 100))->capture_default_str();
-    command
-        .add_option("--within", options.within, "difference that is none, in percent of the smallest spheres' figure")
-        ->check(CLI::Range(0.01, 100.0))
-        ->capture_default_str();
-    addMembers(command, options.sweep, "folder of the runs (default: out/<name of the case>-scale)");
     return command;
 }
 
@@ -351,23 +293,6 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options) {
     return command;
 }
 
-/// A sweep may also run on an MPI job or through a queue.
-CLI::App& addPlainSweep(CLI::App& program, SweepOptions& options) {
-    CLI::App& command = addSweep(program, "sweep", "run every member of a study: a base case, axes, seeds", options);
-    command.add_flag("--mpi", options.mpi, "run a member on each rank of an MPI job (needs a build with VKDOSE_MPI)")
-        ->excludes("--ensemble");
-    command.add_flag("--prepare", options.prepare, "only make the members' folders, for a queue (tools/slurm-array)");
-    return command;
-}
-
-CLI::App& addCalibrate(CLI::App& program, SweepOptions& options) {
-    return addSweep(program, "calibrate", "find the parameters of a study that dose the measured mass", options);
-}
-
-CLI::App& addDesign(CLI::App& program, SweepOptions& options) {
-    return addSweep(program, "design", "find the best compromises between what is wished of a device", options);
-}
-
 }  // namespace
 
 std::vector<Command> declareCommands(CLI::App& program, Options& o) {
@@ -379,22 +304,20 @@ std::vector<Command> declareCommands(CLI::App& program, Options& o) {
         {&addCheck(program, o.check), [&o] { return checkCommand(named(o.check)); }},
         {program.add_subcommand("devices", "list the Vulkan devices"), [] { return devicesCommand(); }},
         {&addExportBody(program, o.exportBody), [&o] { return exportBodyCommand(named(o.exportBody)); }},
-        {&addPlainSweep(program, o.sweep), [&o] { return sweepCommand(studied(o.sweep)); }},
-        {&addCalibrate(program, o.calibration), [&o] { return calibrateCommand(studied(o.calibration)); }},
-        {&addDesign(program, o.design), [&o] { return designCommand(studied(o.design)); }},
-        {&addScale(program, o.scale),
-         [&o] {
-             (void)studied(o.scale.sweep);
-             return scaleCommand(o.scale);
-         }},
+    };
+    const auto also = [&all](std::vector<Command> commands) {
+        all.insert(all.end(), commands.begin(), commands.end());
+    };
+    also(declareStudies(program, o));
+    also({
         {&addStudio(program, o.studio), [&o] { return studioCommand(o.studio); }},
         {&addPowders(program, o.powders), [&o] { return powdersCommand(o.powders); }},
         {&addReport(program, o.report), [&o] { return reportCommand(o.report); }},
         {&addProfile(program, o.profile), [&o] { return profileCommand(o.profile); }},
         {&addRender(program, o.render), [&o] { return renderCommand(o.render); }},
-    };
-    for (const auto& group : {declareManual(program, o), declareTests(program, o)})
-        all.insert(all.end(), group.begin(), group.end());
+    });
+    also(declareManual(program, o));
+    also(declareTests(program, o));
     return all;
 }
 

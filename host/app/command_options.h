@@ -55,7 +55,8 @@ struct Command {
 /// commands.
 std::vector<Command> declareCommands(CLI::App& program, Options& options);
 
-/// Those of the groups `manual` and `test`.
+/// Those that run members, and those of the groups `manual` and `test`.
+std::vector<Command> declareStudies(CLI::App& program, Options& options);
 std::vector<Command> declareManual(CLI::App& program, Options& options);
 std::vector<Command> declareTests(CLI::App& program, Options& options);
 

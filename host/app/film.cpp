@@ -7,15 +7,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <string>
+#include <utility>
 
 #include "host/app/backends.h"
+#include "host/core/child_process.h"
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/core/memory_limit.h"
 #include "host/core/output_file.h"
 
 namespace vkdose {
@@ -55,26 +56,25 @@ Film::Film(std::filesystem::path file, int width, int height, double rate) : fil
     arguments.push_back(nullptr);
 
     requireReplaceable(file_);  // the encoder would wait for a pipe, and goes to and fro in its file
-    std::array<int, 2> ends{};
+    Pipe pipe;
+    pipe.open();
     said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
-    if (said_ < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw OutputError(fmt::format("no pipe to ffmpeg: {}", std::strerror(errno)));
+    if (said_ < 0) throw OutputError(fmt::format("no place for what ffmpeg says: {}", faultText(errno)));
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, pipe.read, STDIN_FILENO);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&files, said_, STDERR_FILENO);
     const int fault = posix_spawnp(&process_, "ffmpeg", &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
-    ::close(ends[0]);
-    pictures_ = ends[1];
+    pictures_ = std::exchange(pipe.write, -1);
     if (fault == 0) return;
     process_ = -1;
     close();
     throw UsageError(
         fmt::format("a film takes the program ffmpeg ({}): install it (Debian: ffmpeg), or name a folder for "
                     "single pictures",
-                    std::strerror(fault)));
+                    faultText(fault)));
 }
 
 int Film::close() {

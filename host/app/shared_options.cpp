@@ -82,6 +82,24 @@ CLI::Option* addFor(CLI::App& command, std::optional<TimeLimit>& limit) {
         ->type_name("TIME");
 }
 
+std::vector<CLI::Option*> addMemberOptions(CLI::App& command, MemberOptions& options) {
+    auto* jobs = command
+                     .add_option("--jobs", options.jobs,
+                                 "members at once, each in a process of its own (default on a CPU: one for each core)")
+                     ->check(CLI::Range(1, 1024));
+    auto* ensemble =
+        command
+            .add_option("--ensemble", options.ensemble,
+                        "members at once that share the device in an ensemble (default on a GPU: as many as its memory "
+                        "holds)")
+            ->check(CLI::Range(1, 1024))
+            ->excludes(jobs);
+    auto* limit = addFor(command, options.limit);
+    auto* retry = command.add_flag("--retry-failed", options.retryFailed,
+                                   "run the members that failed again, from their checkpoints if these can be read");
+    return {jobs, ensemble, limit, retry};
+}
+
 CLI::Option& addAssume(CLI::App& command, bool& assume) {
     return *command.add_flag("--assume", assume,
                              "estimate the run time at an assumed speed, without measuring the device for a second");

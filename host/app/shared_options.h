@@ -54,6 +54,9 @@ void addShow(CLI::App& command, bool& quiet, bool& live, bool& events, bool& ord
 /// --for, of commands that run members.
 CLI::Option* addFor(CLI::App& command, std::optional<TimeLimit>& limit);
 
+/// How members run. Returns the options.
+std::vector<CLI::Option*> addMemberOptions(CLI::App& command, MemberOptions& options);
+
 CLI::Option& addAssume(CLI::App& command, bool& assume);
 
 }  // namespace vkdose

@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <cstring>
 
 #include "host/core/error.h"
 #include "host/core/memory_limit.h"
@@ -57,6 +57,18 @@ class Surroundings {
 };
 
 }  // namespace
+
+Pipe::~Pipe() {
+    for (const int end : {read, write})
+        if (end >= 0) ::close(end);
+}
+
+void Pipe::open() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("no pipe: {}", faultText(errno)));
+    read = ends[0];
+    write = ends[1];
+}
 
 pid_t startChild(ChildStart start) {
     const Surroundings around(start);

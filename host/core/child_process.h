@@ -9,6 +9,18 @@
 
 namespace vkdose {
 
+/// Both ends are closed with it, unless they are taken out. A process that is started inherits neither.
+struct Pipe {
+    int read = -1, write = -1;
+
+    Pipe() = default;
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    ~Pipe();
+    /// Throws RunError if the system has no more.
+    void open();
+};
+
 /// What a process is started with.
 struct ChildStart {
     std::filesystem::path program;

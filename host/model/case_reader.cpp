@@ -46,8 +46,13 @@ const Node* CaseReader::find(const std::string& path, const Node** nearest) cons
 void CaseReader::fault(const std::string& path, std::string problem, std::string remedy) {
     const Node* nearest = nullptr;
     const Node* node = find(path, &nearest);
-    const std::string file = nearest == &tree_ ? file_ : nearest->file;
-    add({file, nearest->line, path, node == nullptr ? "" : node->text, std::move(problem), std::move(remedy)});
+    add({fileOf(path), nearest->line, path, node == nullptr ? "" : node->text, std::move(problem), std::move(remedy)});
+}
+
+const std::string& CaseReader::fileOf(const std::string& path) const {
+    const Node* nearest = nullptr;
+    (void)find(path, &nearest);
+    return nearest == &tree_ ? file_ : nearest->file;
 }
 
 void CaseReader::finish() {

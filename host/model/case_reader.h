@@ -35,6 +35,8 @@ class CaseReader {
     /// The case as TOML, every key as it was used.
     std::string resolved() const;
 
+    /// The file that states the key at `path`, or its table if the value is a default.
+    const std::string& fileOf(const std::string& path) const;
     /// Folder to which a relative path in the value at `path` refers.
     std::filesystem::path folderOf(const std::string& path) const;
 

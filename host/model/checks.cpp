@@ -284,7 +284,8 @@ void checkTimeStep(CaseReader& reader, const Case& c, const PowderSizes& sizes) 
                                  damped->name, 1 / damped->decay),
                      automatic);
     if (c.sensorInterval > 1e9 * dt)
-        reader.fault("sensors.interval_s", "is more than 1e9 time steps", "give a shorter interval");
+        reader.fault("sensors.interval_s", fmt::format("is more than 1e9 time steps of {:.3g} s", dt),
+                     "give a shorter interval, or contacts with a longer time step");
 }
 
 void checkTouches(CaseReader& reader, const Case& c, double largestRadius) {

@@ -82,6 +82,7 @@ void checkLargest(CaseReader& reader, const Case& c, double largest) {
 /// Where a mass of the case is given, and how many particles it takes about.
 struct Amount {
     std::string key;
+    std::string powder;  ///< the table that has its sizes
     double mass = 0, particles = 0;
 };
 
@@ -90,13 +91,25 @@ std::vector<Amount> amountsOf(const Case& c) {
     std::vector<Amount> amounts;
     const auto add = [&](std::string key, double mass, const PowderOf& p) {
         const double each = sphereMass(c.world.density(p.material), std::cbrt(meanCubedRadius(p.filling.size)));
-        amounts.push_back({std::move(key), mass, mass / each});
+        amounts.push_back({std::move(key), p.path, mass, mass / each});
     };
     for (const PowderOf& p : powders) add(p.path + ".mass_g", p.filling.mass, p);
     for (std::size_t k = 0; k < c.refills.size(); ++k)
         add(fmt::format("refill[{}].mass_g", c.refills[k].table), c.refills[k].mass,
             powders[powderIndex(c, c.refills[k].material)]);
     return amounts;
+}
+
+/// Refuses a mass too small for a single sphere, and names the file that has the density if it is another one.
+void refuseLittle(CaseReader& reader, const Case& c, const std::string& key, const PowderOf& p) {
+    const double density = c.world.density(p.material);
+    const std::string& file = reader.fileOf(p.path + ".density");
+    reader.fault(key,
+                 fmt::format("is less than half of the first particle drawn; at {:.6g} kg/m3{} a sphere weighs about "
+                             "{:.3g} g",
+                             density, file == reader.fileOf(key) ? "" : fmt::format(" ({})", file),
+                             1e3 * sphereMass(density, std::cbrt(meanCubedRadius(p.filling.size)))),
+                 "give more mass, or look at the density");
 }
 
 /// Refuses absurd numbers of particles. Returns whether there are as many as that.
@@ -109,10 +122,11 @@ bool checkNumber(CaseReader& reader, const Case& c) {
     for (const Amount& a : amounts) particles += a.particles;
     if (particles <= kMaxParticles) return false;
     const SizeDistribution::Kind kind = c.filling.size.kind;
+    const std::string& file = reader.fileOf(most->powder + ".size");
     reader.fault(most->key,
-                 amounts.size() == 1 ? fmt::format("takes about {:.2g} particles", particles)
-                                     : fmt::format("takes about {:.2g} particles, and with the other masses {:.2g}",
-                                                   most->particles, particles),
+                 fmt::format("takes about {:.2g} particles{}{}", most->particles,
+                             file == reader.fileOf(most->key) ? "" : fmt::format(" of the sizes in {}", file),
+                             amounts.size() == 1 ? "" : fmt::format(", and with the other masses {:.2g}", particles)),
                  kind == SizeDistribution::Kind::Quantiles
                      ? "give less mass or a larger scale_up; d10_um, d50_um and d90_um are in micrometres"
                  : kind == SizeDistribution::Kind::Sieve
@@ -136,7 +150,7 @@ void checkGrid(CaseReader& reader, const Case& c, double largest) {
                                               : InsertionGrid(region, widest, p.filling.gridGap).capacity();
         const double count = c.mixed ? inMixture : static_cast<double>(counts[k]);
         if (counts[k] == 0)
-            reader.fault(p.path + ".mass_g", "is less than half of the first particle drawn", "give more mass");
+            refuseLittle(reader, c, p.path + ".mass_g", p);
         else if (capacity < 1 && c.canister)
             reader.fault(p.path + ".size", "the largest sphere does not fit between the walls",
                          "give smaller particles");
@@ -220,8 +234,8 @@ void checkFilling(CaseReader& reader, const Case& c, double largestRadius) {
 void checkRefills(CaseReader& reader, const Case& c, const Insertion& filled) {
     for (std::size_t k = 0; k < c.refills.size(); ++k)
         if (filled.waiting[k].particles.size() == 0 && !c.refills[k].again)
-            reader.fault(fmt::format("refill[{}].mass_g", c.refills[k].table),
-                         "is less than half of the first particle drawn", "give more mass");
+            refuseLittle(reader, c, fmt::format("refill[{}].mass_g", c.refills[k].table),
+                         powdersOf(c)[powderIndex(c, c.refills[k].material)]);
     if (c.filling.sites) {
         checkVesselRefills(reader, c, filled);
         return;  // they stand in the vessel, wherever gravity points

@@ -64,7 +64,8 @@ void checkSteps(CaseReader& reader, const Case& c) {
             reader.fault(key, "is shorter than half a time step",
                          fmt::format("give 0 or at least {:.4g} s", c.world.timeStep));
         if (std::isfinite(duration) && steps > kMostSteps)
-            reader.fault(key, fmt::format("is more than {:.0e} time steps", kMostSteps), "give a shorter time");
+            reader.fault(key, fmt::format("is more than {:.0e} time steps of {:.3g} s", kMostSteps, c.world.timeStep),
+                         "give a shorter time, or contacts with a longer time step");
     }
 }
 

@@ -1,18 +1,14 @@
 #include "host/studio/child.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <utility>
 
 #include "host/core/child_process.h"
-#include "host/core/error.h"
 #include "host/core/output_file.h"
 #include "host/vk/driver_variable.h"
 
@@ -31,25 +27,6 @@ bool more(int file, std::string& text) {
     if (n > 0) text.append(buffer.data(), std::size_t(n));
     return n > 0;
 }
-
-/// Both ends are closed with it, unless they are taken out.
-struct Pipe {
-    int read = -1, write = -1;
-
-    Pipe() = default;
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    ~Pipe() {
-        for (const int end : {read, write})
-            if (end >= 0) ::close(end);
-    }
-    void open() {
-        std::array<int, 2> ends{};
-        if (pipe2(ends.data(), O_CLOEXEC) != 0) throw RunError(fmt::format("no pipe: {}", std::strerror(errno)));
-        read = ends[0];
-        write = ends[1];
-    }
-};
 
 }  // namespace
 

@@ -163,6 +163,9 @@ TEST_CASE("a powder's file that is none is refused by line and key") {
              {"friction = 0.3\n", "", "beads.toml:10: contact.friction: is missing"},
              {"distribution = \"fixed\"\n", "", "beads.toml:6: particles.size.distribution: is missing"},
              {"title = \"Beads\"\n", "title = \"Beads\"\n[coil]\nturns = 3\n", "coil"},
+             // The mass stands in the case, and what makes it too little or too much in the powder's file.
+             {"density = 2500.0", "density = 25e8", "good.toml:6: particles.mass_g = 0.9: is less than half"},
+             {"radius_mm = 1.1", "radius_mm = 1.1e-3", "particles.mass_g = 0.9: takes about"},
          }) {
         CAPTURE(row.from, row.to);
         folder.write("beads.toml", replaced(kBeads, row.from, row.to));

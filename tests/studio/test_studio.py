@@ -35,6 +35,11 @@ STUDY = """base = "my.toml"
 key = "contact.friction"
 values = [0.3, 0.5]
 """
+SPOON = """
+[[refill]]
+name = "spoon"
+mass_g = 0.1
+"""
 PATIENCE = 240  # s
 
 
@@ -229,13 +234,21 @@ class Workbench(unittest.TestCase):
         self.assertNotEqual(self.page.execute_script(turned), 0)
 
     def test_a_run_is_ordered_about_compared_and_exported(self):
+        with open(self.folder / "my.toml", "a") as case:
+            case.write(SPOON)
+        self.page.refresh()
+        self.until(lambda: self.data("state") == "ready")
         self.at("run").click()
-        self.until(lambda: "t = " in self.at("live-state").text)
+        self.press("#refills button")
+        # It is added once, and its button says so.
+        self.until(lambda: self.page.find_elements(By.CSS_SELECTOR, "#refills button:disabled"))
+        self.until(lambda: "dose 1" in self.at("live-state").text)
         self.at("speed").send_keys("60", Keys.ENTER)
         self.until(lambda: "60 rpm from" in self.at("order-state").text)
         self.over()
-        orders = json.loads((self.folder / "out/my/summary.json").read_text())["orders"]
-        self.assertEqual([o["order"] for o in orders], ["speed"])
+        summary = json.loads((self.folder / "out/my/summary.json").read_text())
+        self.assertEqual([o["order"] for o in summary["orders"]], ["speed"])
+        self.assertIsNotNone(summary["refills"][0]["time_s"])
         shutil.copytree(self.folder / "out/my", self.folder / "out/other")
         self.page.refresh()
         self.until(lambda: self.data("state") == "ready")

@@ -47,6 +47,19 @@ def read_only(_, folder):
     os.chmod(folder, 0o500)
 
 
+# What of the folder is lost for good.
+LOST = {removed: "", series_removed: SERIES, frames_removed: "frames"}
+
+
+def whole_in(good, folder, name):
+    """The files of an undisturbed run that are or lie in `name`, if the folder has them all as they are there; else
+    none."""
+    names = [file for file in folders.files_in(good) if name in ("", file) or file.startswith(name + "/")]
+    whole = all(os.path.isfile(os.path.join(folder, file)) and folders.timeless(os.path.join(folder, file)) ==
+                folders.timeless(os.path.join(good, file)) for file in names)
+    return names if whole else []
+
+
 WAYS = (moved, removed, replaced, file_instead, frames_removed, series_removed, checkpoint_removed, moved)
 
 
@@ -69,8 +82,7 @@ def attempt(t):
         t.ended(running)
         return
     # Nothing in the program can hold what it has written to the end and looked at for the last time.
-    over = way is series_removed and os.path.exists(os.path.join(folder, SERIES)) and (
-        folders.bytes_of(os.path.join(folder, SERIES)) == folders.bytes_of(os.path.join(good, SERIES)))
+    whole = whole_in(good, folder, LOST[way]) if way in LOST else []
     try:
         way(t, folder)
     except FileNotFoundError:
@@ -81,9 +93,9 @@ def attempt(t):
         os.chmod(folder, 0o700)
     elsewhere = t.path("elsewhere")
     if end.code == 0:
-        judged = [folders.differences(good, place, [SERIES] * over)
+        judged = [folders.differences(good, place, whole)
                   for place in (folder, elsewhere) if os.path.isdir(place)]
-        if [] not in judged:
+        if [] not in judged and not (way is removed and whole):
             t.found(f"{way.__name__}: exit 0, but " + (folders.brief(judged[-1]) if judged else "there is no run"))
         return
     if end.code is not None and end.code not in (2, 5):

@@ -226,10 +226,10 @@ def lines_of(path):
 
 
 def says_the_same(t, good, name):
-    """Whether the owner's case says what the good one says: the same lines but for blanks, and but for keys that have
-    their default. The keys behind the preset of a field have it too, so have those whose default is derived from
-    the rest of the case, in the cases of this attack, and those that a table of contacts has from the one before. Such
-    a case stays as its owner left it."""
+    """Whether the owner's case says what the good one says: the same lines but for blanks, but for the reason, which is
+    for people, and but for keys that have their default. The keys behind the preset of a field have it too, so have
+    those whose default is derived from the rest of the case, in the cases of this attack, and those that a table of
+    contacts has from the one before. Such a case stays as its owner left it."""
     other = t.path("out", name)
     if os.path.basename(name) != "case.toml" or not os.path.isfile(other):
         return False
@@ -240,7 +240,7 @@ def says_the_same(t, good, name):
             table = words[0]
         tables.setdefault(table, []).append(words)
         preset = words[0] == "preset" or preset and not words[0].startswith("[")
-        if left and left[0] == words:
+        if left and (left[0] == words or words[0] == "reason" == left[0][0]):
             left.pop(0)
         elif words[0] in DERIVED or words == ["[time]"] or words in tables.get(INHERITED.get(table), []):
             continue
@@ -279,13 +279,19 @@ def judge_success(t, command, name, way, readable):
         t.found("exit 0 though the file cannot be read")
 
 
+def valid_powder(t, name):
+    """Whether a powder's file is one that the program takes, so that it may be the case that it does not fit."""
+    return os.path.basename(name) == "powder.toml" and t.vkdose("powders", "./" + name).code == 0
+
+
 def judge_refusal(t, end, command, name):
-    """Checks a refusal: it names the file. If the spoilt case is another valid case, the message may be another one."""
+    """Checks a refusal: it names the file. If the spoilt case is another valid case, the message may be another one.
+    A powder that is valid by itself may not fit the case; then the message names the case's key."""
     said = end.err + end.out
     allowed = {"run": (2, 3), "powder": (2, 3), "draws": (1, 2), "compare": (1, 2, 3), "sweep": (1, 2), "sweep-on": (1, 2, 5)}
     if end.code not in allowed.get(command, (2, 5)):
         t.found(f"{end.how()} for a spoilt {name}: {end.said()}")
-    elif end.code in (2, 5) and os.path.basename(name) not in said:
+    elif end.code in (2, 5) and os.path.basename(name) not in said and not ("case.toml" in said and valid_powder(t, name)):
         t.found(f"the refusal does not name {name}: {end.said()}")
 
 
