@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -82,10 +83,14 @@ std::string withoutReason(const std::string& resolved) {
     return resolved.substr(0, line) + resolved.substr(resolved.find('\n', line + 1));
 }
 
-/// Whether a sweep has begun in the folder. The sign is its table, or at least members and the base of this very study,
-/// because other files of these names may be the user's own.
+/// Whether a sweep has begun in the folder. The sign is its table. If that was lost, the sign is members beside the
+/// base of this very study, but nothing that a sweep leaves at its end and would replace: without its table such a file
+/// may be the user's own.
 bool isSweep(const fs::path& folder, const Case& base) {
     if (Table::salvage(folder / "members.csv").has("member")) return true;
+    constexpr std::array<const char*, 4> kFromTheStart{"study.toml", "base.toml", "doses.csv", "members.csv"};
+    for (const fs::path& file : SweepFolder::files(folder))
+        if (std::find(kFromTheStart.begin(), kFromTheStart.end(), file.filename()) == kFromTheStart.end()) return false;
     const fs::path file = folder / "base.toml";
     return fs::is_directory(folder / "members") && (fileContent(file) == base.resolved || today(file) == base.resolved);
 }

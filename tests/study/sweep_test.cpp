@@ -10,36 +10,12 @@
 #include "host/output/checkpoint.h"
 #include "host/output/run_folder.h"
 #include "tests/study/made_up_runs.h"
-#include "tests/study/study_files.h"
+#include "tests/study/sweeping.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
 namespace fs = std::filesystem;
-
-namespace {
-
-const HaltRule kNoHalt = [] { return Halt::None; };
-
-struct Sweeping {
-    StudyFolder place;
-    fs::path out = place.path() / "out";
-
-    SweepOutcome run(MadeUpRuns& runs, const std::string& text = kGoodStudy, bool retry = false,
-                     const HaltRule& halt = kNoHalt, SweepObserver* observer = nullptr) const {
-        const Study study = place.study(text);
-        const std::vector<Member> members = membersOf(study);
-        SweepFolder folder(out, study, members);
-        SweepObserver nobody;
-        const SweepOutcome outcome = runMembers(folder, members, runs, observer ? *observer : nobody, halt, retry);
-        if (outcome.whole) folder.sort();
-        return outcome;
-    }
-    Table members() const { return Table::salvage(out / "members.csv"); }
-    Table doses() const { return Table::salvage(out / "doses.csv"); }
-};
-
-}  // namespace
 
 TEST_CASE("every member runs once, no more at a time than there are slots, and is noted with its doses") {
     const Sweeping sweep;
@@ -375,26 +351,6 @@ TEST_CASE("with a single seed values may be added to the first axis") {
     MadeUpRuns more(1);
     CHECK(sweep.run(more, replaced(single, "[0.2, 0.50]", "[0.2, 0.50, 0.6]")).ok == 9);
     CHECK(more.started == std::vector<int>{6, 7, 8});
-}
-
-TEST_CASE("a sweep does not write into a folder that holds something else, or that another sweep holds") {
-    const Sweeping sweep;
-    fs::create_directories(sweep.out);
-    std::ofstream(sweep.out / "thesis.tex") << "x";
-    MadeUpRuns runs(1);
-    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
-    fs::remove(sweep.out / "thesis.tex");
-    // Files and a folder of the names that a sweep uses make no sweep.
-    fs::create_directories(sweep.out / "members");
-    for (const char* name : {"study.toml", "base.toml"}) std::ofstream(sweep.out / name) << "my own";
-    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
-    CHECK(readText(sweep.out / "study.toml") == "my own");
-    for (const char* name : {"members", "study.toml", "base.toml"}) fs::remove(sweep.out / name);
-    const Study study = sweep.place.study();
-    const std::vector<Member> members = membersOf(study);
-    const SweepFolder held(sweep.out, study, members);
-    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("another vkdose is sweeping"));
-    CHECK(runs.started.empty());
 }
 
 TEST_CASE("progress does not climb over members that Ctrl-C cut short") {

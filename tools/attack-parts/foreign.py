@@ -21,7 +21,8 @@ STRANGE_IN_SWEEP = ("notes.txt", "report.html", "members/notes.txt", "members/00
                     "members/0000/frames/notes.txt", "members/0000/report.html", "members/0007/case.toml")
 SWEEP_LIKE = ("study.toml", "base.toml", "members.csv", "doses.csv", "members/0000/case.toml",
               "members/0000/timeseries.csv", "members/0001/frames/frames.csv", "members/0000/particles.csv",
-              "calibrated.toml", "calibration.json", "powder-draws.csv", "design.json", "design-2.toml",
+              "calibrated.toml", "calibration.json", "powder-draws.csv", "design.json", "design-2.toml", "figures.csv",
+              "prediction.json", "scale.json",
               "members", "confirm/members.csv", "confirm/notes.txt", "confirm") + STRANGE_IN_SWEEP
 
 
