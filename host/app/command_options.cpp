@@ -139,6 +139,15 @@ CLI::App& addPowders(CLI::App& program, PowdersOptions& options) {
     command.add_option("--out", options.out, "powder file to write it to (TOML); it must not be there yet")
         ->type_name("FILE")
         ->needs(like);
+    auto* confirm = command
+                        .add_option("--confirm", options.confirm,
+                                    "run the element tests of its laboratory figures, each with so many of its draws, "
+                                    "and write into its file what they say")
+                        ->check(CLI::Range(2, 1000))
+                        ->needs(name)
+                        ->excludes(like);
+    for (CLI::Option* option : addMemberOptions(command, options.ofConfirm)) option->needs(confirm);
+    addBackend(command, options.backend);
     return command;
 }
 

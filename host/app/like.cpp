@@ -11,6 +11,7 @@
 #include "host/app/find_case.h"
 #include "host/app/new_file.h"
 #include "host/app/tell.h"
+#include "host/app/text.h"
 #include "host/core/number.h"
 #include "host/core/printable.h"
 #include "host/study/calibration_file.h"
@@ -84,12 +85,6 @@ LaboratorySheet sheetOf(const std::vector<std::string>& given) {
     return sheet;
 }
 
-fs::path tablesFolder() {
-    for (const fs::path& folder : caseFolders())
-        if (fs::exists(folder / "powders" / "table")) return folder / "powders" / "table";
-    throw UsageError("powders --like: the table of element tests, cases/powders/table, did not come with this program");
-}
-
 std::string likeText(const LaboratorySheet& sheet, const LikePowder& like) {
     std::string text;
     for (const SheetValue& v : sheet.values)
@@ -108,6 +103,12 @@ std::string likeText(const LaboratorySheet& sheet, const LikePowder& like) {
 
 }  // namespace
 
+fs::path tablesFolder() {
+    for (const fs::path& folder : caseFolders())
+        if (fs::exists(folder / "powders" / "table")) return folder / "powders" / "table";
+    throw UsageError("powders: the table of element tests, cases/powders/table, did not come with this program");
+}
+
 int likeCommand(const PowdersOptions& options) {
     const LaboratorySheet sheet = sheetOf(options.like);
     const fs::path folder = tablesFolder();
@@ -122,8 +123,11 @@ int likeCommand(const PowdersOptions& options) {
     if (options.out.empty()) return kOk;
     writeNew(draws, drawsText(like.finding));
     writeNew(options.out, powderFileText(sheet, like, folder, draws.filename().string()));
-    tell("wrote      {}\n           {}\nnext       vkdose run CASE --powder {} --draws 16\n",
-         printable(options.out.string()), printable(draws.string()), printable(options.out.string()));
+    const std::string powder = shellWord(options.out.string());
+    tell(
+        "wrote      {}\n           {}\nnext       vkdose powders {} --confirm 6\n           vkdose run CASE --powder "
+        "{} --draws 16\n",
+        printable(options.out.string()), printable(draws.string()), powder, powder);
     return kOk;
 }
 

@@ -5,6 +5,9 @@
 
 namespace vkdose {
 
+/// The folder of the element tables. Throws UsageError if they did not come with the program.
+std::filesystem::path tablesFolder();
+
 /// Prints the powder, and writes it if it is to be written. Gives the exit code. Throws UsageError.
 int likeCommand(const PowdersOptions& options);
 

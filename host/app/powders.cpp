@@ -5,6 +5,7 @@
 
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
+#include "host/app/confirm.h"
 #include "host/app/exit_code.h"
 #include "host/app/find_case.h"
 #include "host/app/like.h"
@@ -66,6 +67,7 @@ std::string powderText(const PowderFile& p) {
 
 int powdersCommand(const PowdersOptions& options) {
     if (!options.like.empty()) return likeCommand(options);
+    if (options.confirm > 0) return confirmCommand(options);
     if (!options.name.empty()) {
         tell("{}", powderText(readPowderFile(findPowder(options.name))));
         return kOk;

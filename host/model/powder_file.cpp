@@ -31,6 +31,7 @@ constexpr Key kLaboratory[] = {
     text("unit", "", "of the value: `\"kg/m3\"`"),
     text("method", "", "the instrument and what was done with it"),
     text("source", kRequired, "who published it, and where"),
+    boolean("fitted", false, "whether the draws were chosen by this figure, as `--like` does"),
 };
 constexpr Key kHeld[] = {
     text("test", kRequired, "the case that the spheres were run in; the path is relative to this file"),
@@ -68,6 +69,7 @@ void readTables(Section& root, PowderFile& powder) {
         l.unit = s->string("unit");
         l.method = s->string("method");
         l.source = s->string("source");
+        l.fitted = s->boolean("fitted");
     }
     for (Section* s : root.tables("held")) {
         PowderFile::Held& h = powder.held.emplace_back();

@@ -20,6 +20,7 @@ struct PowderFile {
         std::string figure, unit, method, source;
         double value = 0;
         std::optional<double> error;  ///< as the source states it
+        bool fitted = false;          ///< the draws were chosen by it
     };
     /// A figure that the spheres were held against.
     struct Held {

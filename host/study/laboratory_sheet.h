@@ -35,7 +35,8 @@ inline constexpr SheetFigure kSheetFigures[] = {
 struct SheetValue {
     const SheetFigure* figure = nullptr;
     double value = 0;
-    double error = 0;  ///< standard error
+    double error = 0;     ///< standard error
+    bool fitted = false;  ///< parameters were chosen by it
 };
 
 struct LaboratorySheet {

@@ -9,6 +9,7 @@
 
 #include "host/model/case_tree.h"
 #include "host/study/element_tables.h"
+#include "host/study/sheet_aims.h"
 #include "host/study/study.h"
 
 namespace vkdose {
@@ -23,42 +24,16 @@ constexpr std::string_view kBond = "bond";
 /// Part of a parameter's range at its ends: an interval that begins there may go on beyond.
 constexpr double kEnd = 0.03;
 
-/// What a sheet says in a figure of the table.
-struct Aim {
-    const TableFigure* figure;
-    Goal goal;
-};
-
-double relative(const SheetValue& v) {
-    return v.error / v.value;
-}
-
-std::vector<Aim> aimsOf(const LaboratorySheet& sheet) {
-    std::vector<Aim> aims;
-    const auto add = [&](const char* name, double value, double error) {
-        aims.push_back({&tableFigure(name), {value, error, 1}});
-    };
-    const auto ratio = [&](const char* name, const SheetValue& above, const SheetValue& below) {
-        const double value = above.value / below.value;
-        add(name, value, value * std::hypot(relative(above), relative(below)));
-    };
-    const SheetValue *density = sheet.find("density"), *bulk = sheet.find("bulk"), *tapped = sheet.find("tapped");
-    if (density != nullptr && bulk != nullptr) ratio("poured", *bulk, *density);
-    if (density != nullptr && tapped != nullptr) ratio("tapped", *tapped, *density);
-    if (density == nullptr && bulk != nullptr && tapped != nullptr) ratio("hausner", *tapped, *bulk);
-    for (const char* name : {"hausner", "repose", "drum", "effective", "steady", "bond"})
-        if (const SheetValue* v = sheet.find(name)) add(name, v->value, v->error);
-    if (const SheetValue* ffc = sheet.find("ffc")) add("strength", 1 / ffc->value, relative(*ffc) / ffc->value);
-    const bool tells = std::any_of(aims.begin(), aims.end(), [](const Aim& a) { return a.figure->name != kBond; });
+/// Those of a sheet, by which a powder can be found. Throws RunError if none tells the parameters.
+std::vector<SheetAim> tellingAims(const LaboratorySheet& sheet) {
+    std::vector<SheetAim> aims = aimsOf(sheet);
+    const bool tells = std::any_of(aims.begin(), aims.end(), [](const SheetAim& a) { return a.figure->name != kBond; });
     if (!tells)
         throw RunError(
             "these figures do not tell friction and adhesion: a bulk density does so together with the density of the "
             "grains or with the tapped one; give repose, drum, ffc, effective, steady or hausner");
     return aims;
 }
-
-/// The volume fraction of a bed of which nothing is known, between the loosest and the densest.
-constexpr double kUsualFraction = 0.54;
 
 UnitPoint unitOf(const std::vector<FreeParameter>& box, const Parameters& p) {
     UnitPoint u;
@@ -77,16 +52,11 @@ class Asked {
     }
     bool has(const TableFigure& figure) const { return tables_.has(figure.test); }
     const ElementTable& of(const TableFigure& figure) { return tables_.of(figure.test); }
-    /// Normal stress of the pre-shear that the sheet's figures are at [Pa].
-    double load(const ElementTable& ringShear) const {
-        const SheetValue* given = sheet_.find("load");
-        return given != nullptr ? given->value : preShearStress(ringShear) * density(ringShear) / ringShear.density;
-    }
 
   private:
     GaussianProcess made(const TableFigure& figure) {
         const ElementTable& table = of(figure);
-        const double bonds = figure.test == std::string("ring-shear") ? bondScale(table) : 1;
+        const double bonds = figure.test == std::string("ring-shear") ? bondScale(sheet_, table) : 1;
         std::vector<UnitPoint> points;
         std::vector<Measured> values;
         for (std::size_t row = 0; row < table.points.size(); ++row) {
@@ -104,30 +74,19 @@ class Asked {
         const GaussianProcess some({points.begin(), points.begin() + count}, {values.begin(), values.begin() + count});
         return {std::move(points), values, some.kernel()};
     }
-    double density(const ElementTable& table) const {
-        if (const SheetValue* given = sheet_.find("density")) return given->value;
-        if (const SheetValue* bulk = sheet_.find("bulk")) return bulk->value / kUsualFraction;
-        return table.density;
-    }
-    /// By what the Bond numbers of the ring shear test are to be multiplied. There adhesion counts against the load,
-    /// not against the weight: at twice the load, or half the density, twice the Bond number does the same.
-    double bondScale(const ElementTable& table) const {
-        return table.density / density(table) * load(table) / preShearStress(table);
-    }
-
     const LaboratorySheet& sheet_;
     ElementTables tables_;
     std::map<const TableFigure*, GaussianProcess> processes_;
 };
 
-double misfitAt(const UnitPoint& u, const std::vector<Aim>& aims, const Processes& processes) {
+double misfitAt(const UnitPoint& u, const std::vector<SheetAim>& aims, const Processes& processes) {
     double sum = 0;
     for (std::size_t g = 0; g < aims.size(); ++g)
         sum += std::pow((processes[g].at(u).mean - aims[g].goal.target) / aims[g].goal.tolerance, 2);
     return sum;
 }
 
-CalibrationFinding findingOf(const std::vector<FreeParameter>& box, const std::vector<Aim>& aims,
+CalibrationFinding findingOf(const std::vector<FreeParameter>& box, const std::vector<SheetAim>& aims,
                              const Processes& processes, const Posterior& p, const std::vector<UnitPoint>& draws) {
     CalibrationFinding f;
     std::vector<double> misfits;
@@ -153,9 +112,9 @@ CalibrationFinding findingOf(const std::vector<FreeParameter>& box, const std::v
 }
 
 /// Where the table ends before the powder.
-std::vector<std::string> beyondOf(const CalibrationFinding& f, const std::vector<Aim>& aims, Asked& asked) {
+std::vector<std::string> beyondOf(const CalibrationFinding& f, const std::vector<SheetAim>& aims, Asked& asked) {
     std::vector<std::string> all;
-    for (const Aim& aim : aims) {
+    for (const SheetAim& aim : aims) {
         if (aim.figure->name == kBond) continue;
         const ElementTable& table = asked.of(*aim.figure);
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -198,11 +157,11 @@ std::string sectionText(const Node& table, const std::string& path) {
 }  // namespace
 
 LikePowder powderLike(const LaboratorySheet& sheet, const std::filesystem::path& folder) {
-    const std::vector<Aim> aims = aimsOf(sheet);
+    const std::vector<SheetAim> aims = tellingAims(sheet);
     Asked asked(sheet, folder);
     Processes processes;
     std::vector<Goal> goals;
-    for (const Aim& aim : aims) {
+    for (const SheetAim& aim : aims) {
         processes.push_back(asked.process(*aim.figure));
         goals.push_back(aim.goal);
     }
@@ -217,22 +176,21 @@ LikePowder powderLike(const LaboratorySheet& sheet, const std::filesystem::path&
     like.finding = findingOf(box, aims, processes, posterior, draws);
     like.beyond = beyondOf(like.finding, aims, asked);
     for (const TableFigure& figure : tableFigures()) {
-        const bool given = std::any_of(aims.begin(), aims.end(), [&](const Aim& a) { return a.figure == &figure; });
+        const bool given =
+            std::any_of(aims.begin(), aims.end(), [&](const SheetAim& a) { return a.figure == &figure; });
         if (!given && asked.has(figure) && figure.name != kBond)
             like.foretold.push_back({figure.title, figure.unit, figureOver(draws, asked.process(figure))});
     }
     const TableFigure& strength = tableFigure("strength");
-    if (asked.has(strength)) like.load = asked.load(asked.of(strength));
+    if (asked.has(strength)) like.load = preShearLoad(sheet, asked.of(strength));
 
     const SheetValue *density = sheet.find("density"), *bulk = sheet.find("bulk");
-    const double fraction = asked.has(tableFigure("poured"))
-                                ? figureOver(draws, asked.process(tableFigure("poured"))).mean
-                                : kUsualFraction;
-    like.density = density != nullptr ? density->value
-                   : bulk != nullptr  ? bulk->value / fraction
-                                      : asked.of(*aims.front().figure).density;
+    std::optional<double> fraction;
+    if (asked.has(tableFigure("poured"))) fraction = figureOver(draws, asked.process(tableFigure("poured"))).mean;
+    const bool byBulk = density == nullptr && bulk != nullptr && fraction;
+    like.density = byBulk ? bulk->value / *fraction : sphereDensity(sheet, asked.of(*aims.front().figure));
     if (bulk != nullptr) like.bulkDensity = bulk->value;
-    if (bulk == nullptr && density != nullptr) like.bulkDensity = density->value * fraction;
+    if (bulk == nullptr && density != nullptr && fraction) like.bulkDensity = density->value * *fraction;
     return like;
 }
 
@@ -253,7 +211,7 @@ std::string powderFileText(const LaboratorySheet& sheet, const LikePowder& like,
         given += fmt::format("{}{} {:.6g}", given.empty() ? "" : ", ", v.figure->name, v.value);
         laboratory += fmt::format(
             "\n[[laboratory]]\nfigure = {}\nvalue = {:.9g}\nerror = {:.4g}\nunit = {}\nmethod = "
-            "{}\nsource = \"given\"\n",
+            "{}\nsource = \"given\"\nfitted = true\n",
             tomlString(v.figure->name), v.value, v.error, tomlString(v.figure->unit), tomlString(v.figure->meaning));
     }
     std::string limits =

@@ -182,3 +182,51 @@ TEST_CASE("a powder is found by its laboratory figures, and written as a file th
     refused("bulk=520", "give repose, drum");
     CHECK(box.files().size() == 3);  // my.toml, my-draws.csv, out
 }
+
+TEST_CASE("a powder's draws are run in the element tests of its figures, and its file keeps what they said") {
+    const Sandbox box;
+    // An element test and its study, as those that come with the program: this folder's are found first.
+    for (const char* folder : {"cases/elements", "cases/powders/table"})
+        std::filesystem::create_directories(box / folder);
+    box.write("cases/elements/bulk.toml",
+              "base = \"" VKDOSE_SOURCE_DIR
+              "/cases/elements/bulk.toml\"\n[particles]\nmass_g = 2.0\n[particles.region]\nlow = [-8.2e-3, 0.2e-3, "
+              "-8.2e-3]\nhigh = [8.2e-3, 40e-3, 8.2e-3]\n[settle]\ntime_s = 0.11\n[frames]\ninterval_s = 0.01\n"
+              "[[measure]]\nkind = \"bulk_density\"\nname = \"poured\"\nradius_mm = 12.0\ntime_s = 0.1\n");
+    box.write("cases/powders/table/bulk.toml",
+              "base = \"../../elements/bulk.toml\"\n[[axis]]\nkeys = [\"contact.friction\", \"contact.kc_over_k\"]\n"
+              "low = [0, 0]\nhigh = [1, 1]\npoints = 3\n");
+    const std::string laboratory =
+        "[[laboratory]]\nfigure = \"density\"\nvalue = 1427\nsource = \"given\"\nfitted = true\n";
+    box.write("powder.toml", kPowder + laboratory +
+                                 "[[laboratory]]\nfigure = \"bulk\"\nvalue = 10\nsource = \"given\"\nfitted = true\n");
+    box.write("draws.csv", "contact.friction,contact.kc_over_k\n0.4,0.2\n0.5,0.3\n");
+    const auto o = box.vkdose("powders powder.toml --confirm 2 --backend reference");
+    CAPTURE(o.out, o.err);
+    CHECK(o.code == 1);  // no powder is as light as that
+    CHECK_THAT(o.out, Catch::Contains("poured volume fraction") && Catch::Contains("by 2 runs: not met"));
+    const PowderFile p = readPowderFile(box / "powder.toml");
+    REQUIRE(p.held.size() == 1);
+    CHECK(p.held[0].test == "cases/elements/bulk.toml");
+    CHECK(p.held[0].fitted);
+    double sum = 0;
+    for (const char* m : {"0000", "0001"})
+        sum += nlohmann::json::parse(readText(box / "out/powder-bulk/members" / m /
+                                              "summary.json"))["measures"]["poured"]["solid_fraction"]
+                   .get<double>();
+    CHECK(p.held[0].simulated == Approx(sum / 2).epsilon(1e-5));
+    // With the figure that they have it is met, and the runs are there already.
+    std::string text = readText(box / "powder.toml");
+    const std::string was = "value = 10\n";
+    text.replace(text.find(was), was.size(), "value = " + std::to_string(1427 * sum / 2) + "\n");
+    box.write("powder.toml", text);
+    const auto again = box.vkdose("powders powder.toml --confirm 2 --backend reference");
+    CAPTURE(again.out, again.err);
+    CHECK(again.code == 0);
+    CHECK(readPowderFile(box / "powder.toml").held.size() == 1);
+
+    box.write("powder.toml", kPowder + laboratory);
+    CHECK_THAT(box.vkdose("powders powder.toml --confirm 2").err, Catch::Contains("has no figure of an element test"));
+    CHECK_THAT(box.vkdose("powders glass-beads --confirm 2").err, Catch::Contains("draws: is missing"));
+    CHECK_THAT(box.vkdose("powders --confirm 2").err, Catch::Contains("--confirm requires"));
+}
