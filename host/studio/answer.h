@@ -25,4 +25,8 @@ Json bodyOf(const httplib::Request& request);
 /// One of its members.
 std::string textOf(const Json& body, const char* name);
 
+/// Answers with this text as it is. It is not packed, though browsers offer to unpack: on one machine that takes longer
+/// than sending it, and takes its time from the run.
+void answerWith(httplib::Response& response, std::string text, const std::string& type);
+
 }  // namespace vkdose::studio

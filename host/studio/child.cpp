@@ -72,7 +72,10 @@ Ended Child::read(const std::function<void(const std::string&)>& line,
     while (out || error) {
         std::array<pollfd, 2> ends{{{out ? out_ : -1, POLLIN, 0}, {error ? error_ : -1, POLLIN, 0}}};
         (void)poll(ends.data(), ends.size(), kMoment);
-        if (limit && Clock::now() - begin > *limit) kill(process_, SIGKILL);
+        if (limit && Clock::now() - begin > *limit) {
+            ended.late = true;
+            kill(process_, SIGKILL);
+        }
         if (error && ends[1].revents != 0) error = more(error_, ended.error);
         if (ended.error.size() > kRemembered) ended.error.erase(0, ended.error.size() - kRemembered);
         if (!out || ends[0].revents == 0) continue;

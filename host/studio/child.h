@@ -14,6 +14,7 @@ namespace vkdose::studio {
 
 struct Ended {
     int code = 0;       ///< its exit code; 128 and the signal if one ended it
+    bool late = false;  ///< it was ended because it took longer than it may
     std::string error;  ///< what it said on its standard error, at most the last 16 KiB
 };
 

@@ -25,7 +25,7 @@ constexpr const char* kPolicy =
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 void putJson(httplib::Response& response, const Json& json) {
-    response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
+    answerWith(response, json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
 }
 
 void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& stopped) {
@@ -75,7 +75,7 @@ void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& s
     for (const parts::Part& part : parts::kParts)
         server.Get(part.path, [part](const Request&, httplib::Response& response) {
             response.set_header("Cache-Control", "no-cache");
-            response.set_content(part.text, part.type);
+            answerWith(response, part.text, part.type);
         });
 }
 

@@ -4,8 +4,11 @@ const live = {run: null, source: null};
 
 const kDoseColumns = ["dose", "mass_kg", "cumulative_mass_kg", "complete", "closed_form_mass_kg"];
 
+/// Shows where the run is, in words, as a bar and as charts.
 function drawRun() {
-  live.drawing = 0;
+  clearTimeout(live.drawing);
+  Object.assign(live, {drawing: 0, drawn: Date.now()});
+  tellPlace();
   const box = at("charts");
   drawings.length = 0;
   box.textContent = "";
@@ -17,6 +20,20 @@ function drawRun() {
   series("Dosed mass", "dosed_mass_kg", "g", gram);
   series("Torque of the coil", "coil_torque_Nm", "mN m", milli);
   drawings.forEach(again => again());
+}
+
+function tellPlace() {
+  const last = live.samples[live.samples.length - 1];
+  if (!last || !live.source || live.study) return;
+  if (live.expected > 0 && isNumber(last.step)) at("progress").value = Math.min(1, last.step / live.expected);
+  at("live-state").textContent = `${live.phase || "settling"}, t = ${last.time_s.toFixed(3)} s${leftText(last.step)}`;
+}
+
+/// What the page draws it takes from the run, where both share the processor. So it draws every two seconds, however many
+/// samples come.
+const kDrawAfter = 2000;  // ms
+function drawSoon() {
+  live.drawing = live.drawing || setTimeout(drawRun, Math.max(0, (live.drawn || 0) + kDrawAfter - Date.now()));
 }
 
 const kSamples = 2000;  // kept; beyond, every other one goes
@@ -40,12 +57,11 @@ function take(event) {
   if (event.event === "phase") {
     live.expected = event.expected_steps;
     live.phase = event.phase === "settle" ? "settling" : `dose ${event.dose}, ${event.phase}`;
+    tellPlace();
   }
   if (event.event === "sample") {
     if (live.samples.length === 0 || event.time_s > live.samples[live.samples.length - 1].time_s) live.samples.push(event);
     if (live.samples.length > kSamples) live.samples = live.samples.filter((_, i) => i % 2 === 0);
-    if (live.expected > 0 && isNumber(event.step)) at("progress").value = Math.min(1, event.step / live.expected);
-    at("live-state").textContent = `${live.phase || "settling"}, t = ${event.time_s.toFixed(3)} s${leftText(event.step)}`;
   }
   if (event.event === "dose") {
     // A dose that was cut off by a stop is there already, and comes again whole.
@@ -57,7 +73,7 @@ function take(event) {
   if (event.event === "refused") say(`${event.order}: ${event.why}`, true);
   if (event.event === "line") tellLine(event.text);
   if (event.event === "end") live.end = event;
-  if (!live.study) live.drawing = live.drawing || setTimeout(drawRun, 300);
+  if (!live.study) drawSoon();
 }
 
 const refillButtons = () => [...at("refills").querySelectorAll("button")];
@@ -72,7 +88,7 @@ function showRefills(names) {
   });
 }
 
-const kPictureAfter = 1000;  // ms between two pictures
+const kPictureAfter = 2000;  // ms between two pictures
 async function livePicture(run) {
   if (live.run !== run || live.study) return;
   const begun = Date.now(), player = await ask(`/api/frame?${ofRun(run)}`);

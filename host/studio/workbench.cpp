@@ -2,11 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <utility>
+
 #include "host/core/printable.h"
 
 namespace vkdose::studio {
 
 namespace fs = std::filesystem;
+
+void answerWith(httplib::Response& response, std::string text, const std::string& type) {
+    if (text.empty()) return response.set_content("", type);
+    const auto kept = std::make_shared<const std::string>(std::move(text));
+    response.set_content_provider(kept->size(), type,
+                                  [kept](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+                                      return sink.write(kept->data() + from, length);
+                                  });
+}
 
 Json bodyOf(const httplib::Request& request) {
     // What is no JSON of the page, a form of another site say, is told apart by its type.
@@ -53,11 +65,22 @@ Workbench::Said Workbench::said(const std::vector<std::string>& arguments, std::
     return all;
 }
 
+namespace {
+
+/// What to tell of a command that did not end well.
+std::string whyNot(const std::string& command, const Ended& e) {
+    if (!e.error.empty()) return e.error;
+    if (e.late) return fmt::format("vkdose {} takes too long; is the machine busy?", command);
+    return fmt::format("vkdose {} ended with {}", command, e.code);
+}
+
+}  // namespace
+
 std::string Workbench::done(const std::vector<std::string>& arguments, std::chrono::milliseconds limit) const {
     const Said all = said(arguments, limit);
     const Ended& e = all.ended;
     if (e.code == 0) return all.text;
-    throw Refused(409, e.error.empty() ? fmt::format("vkdose {} ended with {}", arguments.front(), e.code) : e.error);
+    throw Refused(409, whyNot(arguments.front(), e));
 }
 
 Json Workbench::asked(const std::vector<std::string>& arguments, std::chrono::milliseconds limit) const {
@@ -65,7 +88,7 @@ Json Workbench::asked(const std::vector<std::string>& arguments, std::chrono::mi
     Json json = Json::parse(all.text, nullptr, false);
     if (!json.is_discarded()) return json;
     const Ended& e = all.ended;
-    throw Refused(500, e.error.empty() ? fmt::format("vkdose {} ended with {}", arguments.front(), e.code) : e.error);
+    throw Refused(500, whyNot(arguments.front(), e));
 }
 
 }  // namespace vkdose::studio

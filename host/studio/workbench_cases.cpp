@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr milliseconds kCheckLimit{20000};
+constexpr milliseconds kCheckLimit{20000}, kNewLimit{120000};
 
 // What `vkdose new` has ready, and what it asks of a canister with a coil.
 constexpr const char* kDevices[] = {"screw", "twin-screw", "tray", "wheel", "dosator"};
@@ -113,7 +113,7 @@ Json Workbench::make(const Json& body) const {
     }
     std::error_code code;
     fs::create_directories(file.parent_path(), code);
-    (void)done(words, kCheckLimit);
+    (void)done(words, kNewLimit);
     return {{"name", name}};
 }
 

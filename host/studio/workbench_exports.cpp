@@ -76,7 +76,7 @@ void Workbench::file(const std::string& run, const std::string& name, httplib::R
     if (!content) throw Refused(404, fmt::format("{} has no {} yet", printable(run), name));
     if (!kind->shown) response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
     response.set_header("Cache-Control", "no-store");
-    response.set_content(*content, kind->type);
+    answerWith(response, *content, kind->type);
 }
 
 }  // namespace vkdose::studio

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <thread>
 
 #include "host/core/csv_table.h"
 #include "host/core/file.h"
@@ -20,7 +21,7 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr std::size_t kListeners = 8, kMostMembers = 500;
-constexpr milliseconds kHeartbeat{1000};
+constexpr milliseconds kHeartbeat{1000}, kGather{250};
 
 /// A run tells JSON, a study lines of text.
 std::string eventOf(const std::string& line) {
@@ -144,6 +145,8 @@ void Workbench::events(const httplib::Request& request, httplib::Response& respo
             if (text.empty()) text = ":\n\n";  // a page that is gone is noticed by this
             const bool heard = sink.write(text.data(), text.size());
             if (over && heard) sink.done();
+            // Each message wakes the browser, whose work takes from the run; so what comes meanwhile goes together.
+            if (!over && heard && !state.events.empty()) std::this_thread::sleep_for(kGather);
             return heard;
         },
         [this](bool) { --listeners_; });
