@@ -26,6 +26,7 @@ constexpr std::array kRules{
     Rule{"size-ratio", wideSizes},
     Rule{"sieve-cumulative", cumulativeSieves},
     Rule{"unused-material", unusedMaterial},
+    Rule{"law-rounding", roundedLaw},
     Rule{"friction", strangeFriction},
     Rule{"overdamped", overdampedContacts},
     Rule{"restitution", strangeRestitution},

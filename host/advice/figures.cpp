@@ -87,7 +87,7 @@ void addStep(Figures& f, const Case& c, const Insertion& filled) {
 }  // namespace
 
 MaterialPair canisterPair(const Case& c) {
-    return {kFirstPowder, c.world.materialOf(0)};  // the walls of a canister come first, and are of one material
+    return {kFirstPowder, c.world.walls.front().material};  // of all walls of a canister the same
 }
 
 Figures figuresOf(const Case& c, const Insertion& filled) {

@@ -83,12 +83,25 @@ Found lightOrHeavyPowder(const Subject& s) {
     return {};
 }
 
+Found roundedLaw(const Subject& s) {
+    constexpr double kMost = 1e-3;
+    const auto& r = s.c.lawRounding;
+    if (!r || r->share <= kMost) return {};
+    return Finding{
+        "contact.law",
+        fmt::format("{} of {} answers {:.5g} in single precision and {:.5g} exactly ({}, overlap {:.3g} m)",
+                    r->function, s.c.dosingLaw.user->name, r->device, r->exact, r->pair, r->overlap),
+        "write it so that no two numbers which are almost the same are subtracted; devices compute in single "
+        "precision, --backend reference in double"};
+}
+
 Found unusedMaterial(const Subject& s) {
     const World& w = s.c.world;
     for (std::size_t m = kUsualMaterials; m < w.materials.size(); ++m) {
         const auto isOf = [&](int material) { return material == int(m); };
         const bool used =
-            w.materials[m].powder || std::any_of(w.surfaceMaterials.begin(), w.surfaceMaterials.end(), isOf) ||
+            w.materials[m].powder ||
+            std::any_of(w.walls.begin(), w.walls.end(), [&](const Wall& wall) { return isOf(wall.material); }) ||
             std::any_of(w.bodies.begin(), w.bodies.end(), [&](const RigidBody& body) { return isOf(body.material); });
         if (used) continue;
         return Finding{"material", fmt::format("nothing is made of \"{}\"", w.materials[m].name),

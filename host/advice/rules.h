@@ -72,6 +72,7 @@ Found fewSpheres(const Subject& s);
 Found wideSizes(const Subject& s);
 Found cumulativeSieves(const Subject& s);
 Found unusedMaterial(const Subject& s);
+Found roundedLaw(const Subject& s);
 
 // body_rules.cpp: bodies
 Found bodyBackwards(const Subject& s);

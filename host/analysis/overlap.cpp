@@ -21,8 +21,8 @@ std::vector<double> overlapRatios(const Particles& particles, const World& world
         if (particles.status[i] != Status::Active) continue;
         const Vec3& x = particles.position[i];
         const double a = particles.radius[i];
-        for (const geometry::Surface& surface : world.surfaces)
-            ratio[i] = std::max(ratio[i], 1 - geometry::closestPoint(surface, x).distance / a);
+        for (const Wall& wall : world.walls)
+            ratio[i] = std::max(ratio[i], 1 - geometry::closestPoint(wall.shape, x).distance / a);
         for (std::size_t b = 0; b < world.bodies.size(); ++b)
             for (const geometry::Shape& shape : world.bodies[b].shapes)
                 for (const geometry::Feature& place : geometry::places(shape, poses[b].toBody(x), a))

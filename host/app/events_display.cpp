@@ -60,7 +60,7 @@ void EventsDisplay::onSample(const Sample& sample) {
     putColumns(kSampleColumns, sample, event);
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
     if (case_.world.repeats()) putColumns(kThroughColumns, sample.sensors, event);
-    const std::vector<std::string> names = bodyNames(case_.world);
+    const std::vector<std::string> names = loadNames(case_.world);
     for (std::size_t b = 0; b < sample.bodies.size(); ++b)
         putColumns(kBodyColumns, sample.bodies[b], event["bodies"][names.at(b)]);
     for (std::size_t b = 0, free = 0; b < sample.bodies.size() && free < sample.free.size(); ++b) {
@@ -89,7 +89,7 @@ void EventsDisplay::onSettled(const Settling& settling, const Case&) {
 void EventsDisplay::onDose(const Dose& dose) {
     Json event{{"event", "dose"}};
     putColumns(kDoseColumns, dose, event);
-    const std::vector<std::string> names = bodyNames(case_.world);
+    const std::vector<std::string> names = loadNames(case_.world);
     for (std::size_t b = 0; b < dose.bodies.size(); ++b)
         putColumns(kDoseBodyColumns, dose.bodies[b], event["bodies"][names.at(b)]);
     for (std::size_t r = 0; r < dose.regions.size(); ++r)

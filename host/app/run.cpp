@@ -123,7 +123,6 @@ int runCommand(const RunOptions& options) {
         run.role.keepsStates = false;  // a study of thousands would fill the disk
     }
     const BackendChoice choice = anew ? options.backend : sameBackend(run.state->backend, options.backend);
-    requireLaw(run.c, choice.backend);
     const std::unique_ptr<Backend> backend = makeBackend(choice, run.filled.particles.size());
     if (!options.quiet && !options.events) tellWarnings(run);
     RunFolder folder = folderOf(run, out, options.force, *backend);

@@ -55,8 +55,8 @@ Workload boxOf(const Packing& packing) {
     for (glm::length_t axis = 0; axis < 3; ++axis) {
         Vec3 normal(0);
         normal[axis] = 1;
-        w.world.surfaces.push_back(geometry::Plane{low, normal});
-        w.world.surfaces.push_back(geometry::Plane{high, -normal});
+        w.world.walls.push_back(geometry::Plane{low, normal});
+        w.world.walls.push_back(geometry::Plane{high, -normal});
     }
     w.world.gravity = Vec3(0);
     w.world.domain = {low - Vec3(kRadiusMax), high + Vec3(kRadiusMax)};

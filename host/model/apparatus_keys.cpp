@@ -22,11 +22,14 @@ constexpr Key kCanister[] = {
 };
 
 constexpr Key kPlane[] = {
+    text("name", told("`plane-` and its number among the planes, from 0"),
+         "under which its loads are told, if `sensors.wall_loads` asks for them"),
     vector("point", kMetre, kRequired, "a point of the plane"),
     vector("normal", kPlain, kRequired, "points to the side of the particles; of any length but zero"),
     text("material", told("that of the walls"), "name of a `[[material]]` that it is made of"),
 };
 constexpr Key kCylinder[] = {
+    text("name", told("`cylinder-` and its number among the cylinders, from 0"), "as of a plane"),
     vector("base", kMetre, kRequired, "centre of the first end; of an endless one any point of the axis"),
     vector("axis", kPlain, kRequired, "direction of the axis; of any length but zero"),
     number("radius_mm", kMillimetre, kPositive, kRequired, "inner radius if the particles are inside, else outer"),

@@ -216,9 +216,9 @@ Case interpret(const std::filesystem::path& file, Node tree, std::vector<std::fi
     checkRefills(reader, c, filled);
     if (c.canister && c.canister->lid) {
         const geometry::Plane lid{{0, canisterTop(*c.canister, filled), 0}, {0, -1, 0}};
-        c.world.surfaces.insert(c.world.surfaces.end() - 1, lid);  // the front wall stays the last (world.h)
-        auto& ofWalls = c.world.surfaceMaterials;                  // of all walls the same, or none stated
-        if (!ofWalls.empty()) ofWalls.push_back(ofWalls.back());
+        auto& walls = c.world.walls;
+        const int material = walls.back().material;                 // of all walls the same
+        walls.insert(walls.end() - 1, Wall(lid, "lid", material));  // the front wall stays the last (world.h)
     }
     if (!domainGiven) {
         c.world.domain = defaultDomain(c, sizes, filled);

@@ -198,8 +198,8 @@ void checkBox(CaseReader& reader, const std::string& path, const Box& box) {
 /// The key that makes a surface. Surfaces that a file lists come in the order of the file, planes first.
 std::string surfaceKey(const Case& c, std::size_t surface) {
     if (c.canister) return "canister";
-    const auto isPlane = [](const geometry::Surface& s) { return std::holds_alternative<geometry::Plane>(s); };
-    const auto& all = c.world.surfaces;
+    const auto isPlane = [](const Wall& w) { return std::holds_alternative<geometry::Plane>(w.shape); };
+    const auto& all = c.world.walls;
     const auto planes = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), isPlane));
     return surface < planes ? fmt::format("plane[{}].point", surface)
                             : fmt::format("cylinder[{}].base", surface - planes);
@@ -224,7 +224,7 @@ void checkFields(CaseReader& reader, const Case& c) {
 
 void checkSurfaces(CaseReader& reader, const Case& c, double radius) {
     const Box& room = c.world.domain;
-    const auto found = geometry::findCoincidence(c.world.surfaces, radius, room.low, room.high);
+    const auto found = geometry::findCoincidence(shapesOf(c.world.walls), radius, room.low, room.high);
     if (!found) return;
     const std::string first = surfaceKey(c, found->first), second = surfaceKey(c, found->second);
     const Vec3 at = found->centre * 1e3;

@@ -33,8 +33,7 @@ Obstacle Clearance::nearest(const Vec3& x, double reach) const {
     const auto consider = [&](double distance, const std::string& what) {
         if (distance < found.distance) found = {distance, what};
     };
-    for (const geometry::Surface& surface : world_.surfaces)
-        consider(geometry::closestPoint(surface, x).distance, "a wall");
+    for (const Wall& wall : world_.walls) consider(geometry::closestPoint(wall.shape, x).distance, "a wall");
     if (world_.coil) consider(coilDistance(*world_.coil, coilAngle_, x, reach), "the coil");
     for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
         const Vec3 inBody = poses_[b].toBody(x);

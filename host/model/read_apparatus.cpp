@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/model/case_sections.h"
 #include "host/model/stability.h"
@@ -13,20 +14,23 @@ namespace {
 
 // ---- boundaries ---------------------------------------------------------------------------------------------------
 
-void addCanister(Case& c) {
+/// `material` is that of its walls.
+void addCanister(Case& c, int material) {
     const Canister& can = *c.canister;
     const double half = can.width / 2;
-    auto& surfaces = c.world.surfaces;
+    const auto add = [&](const geometry::Surface& shape, const char* name) {
+        c.world.walls.emplace_back(shape, name, material);
+    };
     // The walls end at the front wall, because beyond it a sphere touches only the throat.
     if (can.flatFloor) {
-        surfaces.push_back(geometry::Plane{{-half, 0, 0}, {1, 0, 0}, can.length});
-        surfaces.push_back(geometry::Plane{{half, 0, 0}, {-1, 0, 0}, can.length});
-        surfaces.push_back(geometry::Plane{{0, -half, 0}, {0, 1, 0}, can.length});
+        add(geometry::Plane{{-half, 0, 0}, {1, 0, 0}, can.length}, "left");
+        add(geometry::Plane{{half, 0, 0}, {-1, 0, 0}, can.length}, "right");
+        add(geometry::Plane{{0, -half, 0}, {0, 1, 0}, can.length}, "floor");
     } else {
-        surfaces.push_back(geometry::Trough{half, can.length});
+        add(geometry::Trough{half, can.length}, "trough");
     }
-    surfaces.push_back(geometry::Plane{{0, 0, 0}, {0, 0, 1}});
-    surfaces.push_back(geometry::Front{can.length, can.outletDiameter / 2, can.throatLength});
+    add(geometry::Plane{{0, 0, 0}, {0, 0, 1}}, "rear");
+    add(geometry::Front{can.length, can.outletDiameter / 2, can.throatLength}, "front");
     c.world.throatZ = can.length;
     c.world.outletZ = can.length + can.throatLength;
 }
@@ -42,21 +46,20 @@ void readCanister(CaseReader& reader, Section& root, Case& c) {
     can.throatLength = section.number("throat_length_mm");
     can.lid = section.boolean("lid");
     c.canister = can;
-    addCanister(c);
-    if (section.has("material"))
-        c.world.surfaceMaterials.assign(c.world.surfaces.size(),
-                                        std::uint8_t(readMaterialName(reader, section, c, kWallMaterial)));
     section.know("material");
+    addCanister(c, section.has("material") ? readMaterialName(reader, section, c, kWallMaterial) : kWallMaterial);
 }
 
 void readSurfaces(CaseReader& reader, Section& root, Case& c) {
-    const auto made = [&](Section& surface) {
-        c.world.surfaceMaterials.push_back(std::uint8_t(readMaterialName(reader, surface, c, kWallMaterial)));
+    std::set<std::string> names;
+    const auto add = [&](const geometry::Surface& shape, Section& section, const char* kind, std::size_t number) {
+        const std::string name = readName(reader, section, kind, names, fmt::format("{}-{}", kind, number));
+        c.world.walls.emplace_back(shape, name, readMaterialName(reader, section, c, kWallMaterial));
     };
+    std::size_t planes = 0, cylinders = 0;
     for (Section* plane : root.tables("plane")) {
         const Vec3 point = plane->vector("point");
-        c.world.surfaces.push_back(geometry::Plane{point, readDirection(reader, *plane, "normal")});
-        made(*plane);
+        add(geometry::Plane{point, readDirection(reader, *plane, "normal")}, *plane, "plane", planes++);
     }
     for (Section* tube : root.tables("cylinder")) {
         geometry::Tube shape;
@@ -66,10 +69,9 @@ void readSurfaces(CaseReader& reader, Section& root, Case& c) {
         if (tube->has("length_mm")) shape.length = tube->number("length_mm");
         tube->know("length_mm");
         shape.inside = tube->boolean("inside");
-        c.world.surfaces.push_back(shape);
-        made(*tube);
+        add(shape, *tube, "cylinder", cylinders++);
     }
-    if (c.world.surfaces.empty() && !root.has("body") && !reader.faulty())
+    if (c.world.walls.empty() && !root.has("body") && !reader.faulty())
         reader.fault("boundaries", "the list is empty",
                      "add [[plane]], [[cylinder]] or [[body]], or write boundaries = \"none\"");
 }
@@ -207,6 +209,23 @@ void readStop(Section& root, Case& c) {
     c.schedule.stop = stop;
 }
 
+/// The columns of loads begin with the name of a wall, or of a body.
+void checkWallNames(CaseReader& reader, const Case& c) {
+    constexpr const char* kLoads = "sensors.wall_loads";
+    if (c.world.walls.empty())
+        reader.fault(kLoads, "there are no walls", "leave it out; the loads on bodies are always told");
+    std::set<std::string> names;
+    for (const Wall& wall : c.world.walls) names.insert(wall.name);
+    if (c.canister && c.canister->lid) names.insert("lid");
+    for (const RigidBody& body : c.world.bodies)
+        if (names.contains(body.name))
+            reader.fault(kLoads, fmt::format("a wall and a body are both called \"{}\"", body.name),
+                         "give the body another name");
+    if (c.world.coil && names.contains(kCoilName))
+        reader.fault(kLoads, fmt::format("a wall is called \"{}\", which is the name of [coil]", kCoilName),
+                     "give the wall another name");
+}
+
 }  // namespace
 
 void readSchedule(CaseReader& reader, Section& root, Case& c) {
@@ -222,6 +241,8 @@ void readSchedule(CaseReader& reader, Section& root, Case& c) {
     if (sensors.has("rate_window_s")) c.rateWindow = sensors.number("rate_window_s");
     sensors.know("rate_window_s");
     c.world.energyBook = sensors.boolean("energy");
+    c.world.wallLoads = sensors.boolean("wall_loads");
+    if (c.world.wallLoads) checkWallNames(reader, c);
     Section& frames = root.table("frames");
     c.frames.interval = frames.number("interval_s");
     c.frames.contacts = frames.boolean("contacts");

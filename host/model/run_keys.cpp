@@ -94,6 +94,9 @@ constexpr Key kSensors[] = {
            "run"),
     boolean("energy", false,
             "keeps the energy ledger. The motion stays the same to the last bit; a step costs half as much again"),
+    boolean("wall_loads", false,
+            "tells the force and the torque on each wall as those on bodies are told: of a canister on `rear`, "
+            "`trough` (or `left`, `right`, `floor`), `front` and `lid`. The motion stays the same to the last bit"),
 };
 constexpr Key kFrames[] = {
     number("interval_s", kSecond, kNonNegative, 0.0,

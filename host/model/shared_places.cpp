@@ -77,8 +77,8 @@ class Search {
   public:
     Search(const Case& c, const Particles& particles, double radius) : c_(c), radius_(radius) {
         for (const RigidBody& body : c.world.bodies) add(body, particles);
-        for (const geometry::Surface& surface : c.world.surfaces)
-            things_.push_back({[&surface](const Vec3& q) { return Nearest(geometry::closestPoint(surface, q)); }});
+        for (const Wall& wall : c.world.walls)
+            things_.push_back({[&wall](const Vec3& q) { return Nearest(geometry::closestPoint(wall.shape, q)); }});
     }
 
     std::vector<SharedPlace> all() {

@@ -32,6 +32,15 @@ struct UserLaw {
     std::string shader;
 };
 
+/// An answer of a law on a device beside the same in double precision.
+struct LawRounding {
+    std::string function;  ///< of the law
+    std::string pair;      ///< of materials
+    double overlap = 0;    ///< [m]
+    double device = 0, exact = 0;
+    double share = 0;  ///< their difference over the answer, or over a thousandth of the largest of the loading
+};
+
 /// A fault in the text of a law.
 struct LawFault {
     int line = 0;

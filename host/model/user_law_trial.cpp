@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "host/core/memory_limit.h"
 #include "host/model/law_checks.h"
+#include "host/model/law_in_doubles.h"
 #include "host/model/restitution.h"
 #include "host/model/stability.h"
 
@@ -60,6 +62,15 @@ std::optional<std::string> wrongIn(const LawPoint& p) {
     return {};
 }
 
+/// Nothing if double precision cannot follow the law.
+std::optional<LawInDoubles> inDoubles(const UserLaw& law) {
+    try {
+        return std::optional<LawInDoubles>(std::in_place, law);
+    } catch (const LawRefused&) {
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 void setLawTrial(LawTrial trial) {
@@ -80,22 +91,31 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
     std::vector<LawLoading> loadings;
     for (const Probe& probe : probes) loadings.push_back(probe.loading);
     std::vector<std::vector<LawPoint>> answers;
+    std::optional<LawInDoubles> doubles;  // made once the compiler has taken the text
     try {
         answers = trialOfProcess()(law, loadings);
+        doubles = inDoubles(law);
     } catch (const LawError& error) {
         for (const LawFault& fault : error.faults) refuse(fault.line, fault.problem, fault.remedy);
         return;
     } catch (const DeviceError& error) {
-        reader.fault("contact.law",
-                     fmt::format("could not be tried on a device: {}{}", error.what(), memoryLimitText()),
-                     "or take a law of the program's own, which needs no trial");
-        return;
+        const std::string why = fmt::format("could not be tried on a device: {}{}", error.what(), memoryLimitText());
+        doubles = inDoubles(law);
+        if (!doubles) {
+            reader.fault("contact.law", why, "or take a law of the program's own, which needs no trial");
+            return;
+        }
+        // The reference runs it without one. A run on a device will fail by itself.
+        c.derivations.push_back(fmt::format("contact.law: tried in double precision, because it {}", why));
+        for (const LawLoading& loading : loadings) answers.push_back(doubles->tried(loading));
+        doubles.reset();
     }
     for (ContactParameters& p : c.dosingLaw.pairs) p.k1 = p.k2Max = p.gamma = p.kMost = 0;
     for (std::size_t k = 0; k < probes.size(); ++k) {
         const Probe& probe = probes[k];
         ContactParameters& p = c.dosingLaw.of(probe.pair);
-        for (std::size_t n = 0; n < answers[k].size(); ++n) {
+        std::size_t contacts = 0;  // of the points
+        for (std::size_t n = 0; n < answers[k].size(); ++n, ++contacts) {
             const LawPoint& point = answers[k][n];
             const bool pressed = 3 * n < 2 * answers[k].size();  // the last third is beyond touch
             if (!pressed && point.reach == 0) break;             // touch itself is no contact
@@ -128,7 +148,10 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
                 p.gamma = std::max(p.gamma, point.damping);
             }
         }
+        if (doubles)
+            doubles->compare(nameOf(c.world, probe.pair), probe.loading, std::span(answers[k]).first(contacts));
     }
+    if (doubles) c.lawRounding = doubles->worst();
     c.settlingLaw = c.dosingLaw;
 }
 

@@ -31,7 +31,7 @@ std::vector<int> powdersOf(const World& world) {
 std::vector<MaterialPair> occurringPairs(const World& world) {
     const std::vector<int> powders = powdersOf(world);
     std::set<int> others(powders.begin(), powders.end());
-    for (std::size_t s = 0; s < world.surfaces.size(); ++s) others.insert(world.materialOf(s));
+    for (const Wall& wall : world.walls) others.insert(wall.material);
     for (const RigidBody& body : world.bodies) others.insert(body.material);
     if (world.coil) others.insert(kCoilMaterial);
     std::vector<MaterialPair> pairs;
@@ -51,8 +51,8 @@ void checkMaterials(const World& world, const ContactLaw& law, const Particles& 
     require(int(world.materials.size()) <= kMostMaterials, fmt::format("more than {} materials", kMostMaterials));
     require(law.pairs.materials() >= int(world.materials.size()) && law.pairs.materials() <= kMostMaterials,
             "the contact law is not of the world's materials");
-    for (std::size_t s = 0; s < world.surfaces.size(); ++s)
-        require(known(world.materialOf(s)), fmt::format("surface {} is of no material", s));
+    for (std::size_t s = 0; s < world.walls.size(); ++s)
+        require(known(world.walls[s].material), fmt::format("wall {} is of no material", s));
     for (const RigidBody& body : world.bodies)
         require(known(body.material), fmt::format("body \"{}\" is of no material", body.name));
     require(particles.material.size() == particles.size(), "not every particle has a material");
@@ -81,10 +81,12 @@ std::vector<RigidBody> allBodies(const World& world) {
     return bodies;
 }
 
-std::vector<std::string> bodyNames(const World& world) {
+std::vector<std::string> loadNames(const World& world) {
     std::vector<std::string> names;
     for (const RigidBody& body : world.bodies) names.push_back(body.name);
     if (world.coil) names.emplace_back(kCoilName);
+    if (world.wallLoads)
+        for (const Wall& wall : world.walls) names.push_back(wall.name);
     return names;
 }
 

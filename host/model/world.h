@@ -1,5 +1,5 @@
 #pragma once
-// The world that a backend simulates, free of file formats: surfaces, coil, time step. Built from a Case by
+// The world that a backend simulates, free of file formats: walls, coil, bodies, time step. Built from a Case by
 // model/case.h, or by hand in tests.
 
 #include <cmath>
@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "geometry/coil.h"
-#include "geometry/surface.h"
 #include "host/core/vec.h"
 #include "host/model/material.h"
 #include "host/model/particles.h"
 #include "host/model/region.h"
 #include "host/model/rigid_body.h"
+#include "host/model/wall.h"
 
 namespace vkdose {
 
@@ -39,15 +39,16 @@ std::vector<Vec3> imageShifts(const Vec3& period);
 /// not made for larger overlaps.
 inline constexpr double kMaxOverlapRatio = 0.2;
 
-/// One member: a canister (or any set of surfaces) and its powder. It leaves out the two things that change from phase
-/// to phase of a run: the coil's speed, and the law of the contacts, which may be another while the powder settles.
+/// One member: a canister (or any set of walls and bodies) and its powder. It leaves out the two things that change
+/// from phase to phase of a run: the coil's speed, and the law of the contacts, which may be another while the powder
+/// settles.
 struct World {
-    /// Contact history is kept per (particle, surface). A front wall is the last surface, so that walls that end at it
-    /// come before it. It takes over contacts from them, and they take over contacts from it.
-    std::vector<geometry::Surface> surfaces;
-    std::vector<std::uint8_t> surfaceMaterials;  ///< of each surface; those behind its end are of the walls' material
+    /// Contact history is kept per (particle, wall). A front wall is the last one, so that walls that end at it come
+    /// before it. It takes over contacts from them, and they take over contacts from it.
+    std::vector<Wall> walls;
+    bool wallLoads = false;  ///< backends tell what the particles do to each wall, as they do for bodies
     std::optional<geometry::Coil> coil;
-    std::vector<RigidBody> bodies;  ///< beside surfaces and coil; at most kMaxBodies
+    std::vector<RigidBody> bodies;  ///< beside walls and coil; at most kMaxBodies
     bool coilSurfaceMoves = true;   ///< contacts see the velocity of the coil's surface; false: they see it at rest
     bool coilWireCurved = false;    ///< a* counts the wire's radius; false: the wire is as flat as a wall
     Vec3 gravity{0, -9.81, 0};
@@ -57,7 +58,7 @@ struct World {
     bool energyBook = false;  ///< keep the energy book (Sensors::energy)
     Box domain;
     /// Length of the domain in directions that repeat, else 0; at most two repeat [m]. A particle that leaves the
-    /// domain at one end comes in at the other. Bodies and surfaces are as they are drawn: they are to repeat by
+    /// domain at one end comes in at the other. Bodies and walls are as they are drawn: they are to repeat by
     /// themselves.
     Vec3 period{0};
     /// A particle is in the throat if its centre is past throatZ. It is dosed if its centre is past outletZ or in a
@@ -65,16 +66,12 @@ struct World {
     double throatZ = std::numeric_limits<double>::infinity();
     double outletZ = std::numeric_limits<double>::infinity();
     std::vector<CountRegion> regions;  ///< at most kMaxRegions
-    /// Particles, surfaces and bodies name theirs by its index; at most kMostMaterials.
+    /// Particles, walls and bodies name theirs by its index; at most kMostMaterials.
     std::vector<Material> materials{{"particle", true, 0}, {"wall", false, 0}, {"coil", false, 0}};
 
     /// Of a powder's particles [kg/m3].
     double density(int material = kFirstPowder) const { return materials.at(std::size_t(material)).density; }
     double& density(int material = kFirstPowder) { return materials.at(std::size_t(material)).density; }
-    int materialOf(std::size_t surface) const {
-        return surface < surfaceMaterials.size() ? surfaceMaterials[surface] : kWallMaterial;
-    }
-
     bool repeats() const { return period != Vec3(0); }
     /// A way between two places of the domain, by the shortest image [m].
     Vec3 shortest(const Vec3& way) const { return vkdose::shortest(way, period); }
@@ -103,7 +100,7 @@ inline Vec3 unfolded(const World& world, const Particles& particles, std::size_t
 
 /// The powders, ascending.
 std::vector<int> powdersOf(const World& world);
-/// The pairs of materials whose contacts can occur: of two powders, and of a powder with a surface, a body or the coil.
+/// The pairs of materials whose contacts can occur: of two powders, and of a powder with a wall, a body or the coil.
 /// Ascending by the powder, then by the other; a pair of two powders is there once.
 std::vector<MaterialPair> occurringPairs(const World& world);
 /// Throws std::logic_error if the law has no parameters for a material of the world, if a particle is of no powder of
@@ -116,8 +113,8 @@ std::string nameOf(const World& world, MaterialPair pair);
 inline constexpr const char* kCoilName = "coil";
 /// All that moves or may move: World::bodies, and behind them the coil, which the drive turns.
 std::vector<RigidBody> allBodies(const World& world);
-/// Their names, in the same order.
-std::vector<std::string> bodyNames(const World& world);
+/// The names of all whose loads a backend tells: of allBodies, in their order, then of the walls if World::wallLoads.
+std::vector<std::string> loadNames(const World& world);
 
 /// Most turns of the coil that one sphere may touch at once: a backend keeps contact history for as many places of a
 /// body.

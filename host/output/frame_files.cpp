@@ -58,8 +58,8 @@ class ContactGeometry {
             const double distance = glm::length(apart);
             return {x - apart, apart / distance, r + p.radius[c.other] - distance};
         }
-        const std::size_t walls = world_.surfaces.size();
-        if (c.other < walls) return against(geometry::closestPoint(world_.surfaces[c.other], x), r);
+        const std::size_t walls = world_.walls.size();
+        if (c.other < walls) return against(geometry::closestPoint(world_.walls[c.other].shape, x), r);
         return placeOn(c.other - walls, c);
     }
 

@@ -85,7 +85,7 @@ namespace {
 template <class Columns>
 std::string bodyHeader(const Columns& columns, const World& world) {
     std::string header;
-    for (const std::string& body : bodyNames(world))
+    for (const std::string& body : loadNames(world))
         forEachColumn(columns, [&](const auto& c) { header += fmt::format(",{}.{}", body, c.name); });
     return header;
 }

@@ -70,7 +70,7 @@ Json closedForms(const Case& c, const RunResult& r) {
 
 Json doseList(const Case& c, const std::vector<Dose>& doses) {
     Json list = Json::array();
-    const std::vector<std::string> names = bodyNames(c.world);
+    const std::vector<std::string> names = loadNames(c.world);
     for (const Dose& d : doses) {
         Json& one = list.emplace_back(Json::object());
         putColumns(kDoseColumns, d, one);
@@ -83,7 +83,7 @@ Json doseList(const Case& c, const std::vector<Dose>& doses) {
 /// Of the whole run.
 Json bodyList(const Case& c, const RunResult& r) {
     Json list = Json::array();
-    const std::vector<std::string> names = bodyNames(c.world);
+    const std::vector<std::string> names = loadNames(c.world);
     for (std::size_t b = 0; b < r.last.bodies.size(); ++b) {
         Json& one = list.emplace_back(Json::object());
         one["name"] = names.at(b);

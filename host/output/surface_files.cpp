@@ -68,11 +68,12 @@ std::string wallsFile(const Case& c) {
         const double half = c.canister->width / 2;
         low = Vec3(-half, -half, 0);
         high = Vec3(half, c.canister->height - half, c.canister->length);
-        for (const geometry::Surface& s : w.surfaces)  // a lid may lie higher
-            if (const auto* plane = std::get_if<geometry::Plane>(&s)) high.y = std::max(high.y, plane->point.y);
+        for (const Wall& wall : w.walls)  // a lid may lie higher
+            if (const auto* plane = std::get_if<geometry::Plane>(&wall.shape))
+                high.y = std::max(high.y, plane->point.y);
     }
     Collection walls;
-    walls.add(geometry::surfaceMesh(w.surfaces, low, high), 0);
+    walls.add(geometry::surfaceMesh(shapesOf(w.walls), low, high), 0);
     walls.add(w, false, Frame{});
     return walls.mesh.empty() ? "" : vtkhdf::file(walls.grid(w));
 }

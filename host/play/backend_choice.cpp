@@ -16,13 +16,6 @@ std::unique_ptr<Backend> openBackend(const BackendChoice& choice) {
     return openEnsemble(choice).enter();
 }
 
-void requireLaw(const Case& c, const std::string& backend) {
-    if (c.dosingLaw.user && backend == "reference")
-        throw CaseError({{"case", 0, "contact.law", c.dosingLaw.user->name,
-                          "is written in the language of devices, and the backend reference cannot run it",
-                          "use --backend vulkan"}});
-}
-
 VulkanEnsemble openEnsemble(const BackendChoice& choice) {
     if (choice.backend == "reference") throw UsageError("an ensemble needs a device; the reference runs one canister");
     if (choice.backend != "vulkan")

@@ -26,9 +26,6 @@ struct BackendChoice {
 /// reference backend, and DeviceError if there is no device.
 std::unique_ptr<Backend> openBackend(const BackendChoice& choice);
 
-/// Throws CaseError if the backend of this name cannot run the contact law of the case.
-void requireLaw(const Case& c, const std::string& backend);
-
 /// An ensemble for backends of canisters that share a device. Throws as above.
 VulkanEnsemble openEnsemble(const BackendChoice& choice);
 

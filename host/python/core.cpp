@@ -145,7 +145,7 @@ py::dict sampleOf(const Simulation& run) {
     if (s.energy) dict.attr("update")(dictOf(kEnergyColumns, *s.energy));
     if (run.theCase().world.repeats()) dict.attr("update")(dictOf(kThroughColumns, s.sensors));
     py::dict bodies, regions, powders;
-    const std::vector<std::string> names = bodyNames(run.theCase().world);
+    const std::vector<std::string> names = loadNames(run.theCase().world);
     for (std::size_t b = 0; b < s.bodies.size(); ++b) bodies[names.at(b).c_str()] = dictOf(kBodyColumns, s.bodies[b]);
     for (std::size_t b = 0, free = 0; b < s.bodies.size() && free < s.free.size(); ++b) {
         const RigidBody& body = run.theCase().world.bodies.at(b);

@@ -145,9 +145,9 @@ std::vector<Line> outlineOf(const Case& c, const Vec3& towards, const Box& conte
     if (c.canister) {
         addCanister(*c.canister, towards, lines);
     } else {
-        for (const geometry::Surface& s : c.world.surfaces) {
-            if (const auto* tube = std::get_if<geometry::Tube>(&s)) addTube(*tube, towards, content, lines);
-            if (const auto* plane = std::get_if<geometry::Plane>(&s)) addPlane(*plane, content, lines);
+        for (const Wall& wall : c.world.walls) {
+            if (const auto* tube = std::get_if<geometry::Tube>(&wall.shape)) addTube(*tube, towards, content, lines);
+            if (const auto* plane = std::get_if<geometry::Plane>(&wall.shape)) addPlane(*plane, content, lines);
         }
     }
     return left(std::move(lines), cut);

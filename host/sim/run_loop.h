@@ -171,7 +171,7 @@ class RunLoop {
     Sensors now_;                 ///< of the last call, joined with the calls since the last sample
     std::uint64_t gathered_ = 0;  ///< steps since the last sample
     BodyClocks clocks_{case_.world};
-    BodyLoads loads_{bodyNames(case_.world).size()};
+    BodyLoads loads_{loadNames(case_.world).size()};
     RegionBook regions_{case_.world};
     PowderBook powders_{case_.world};
     /// Of each refill: whether the powder that it watches was above its mark since its turn came.

@@ -84,10 +84,11 @@ std::string withoutReason(const std::string& resolved) {
 }
 
 /// Whether a sweep has begun in the folder. The sign is its table. If that was lost, the sign is members beside the
-/// base of this very study, but nothing that a sweep leaves at its end and would replace: without its table such a file
-/// may be the user's own.
-bool isSweep(const fs::path& folder, const Case& base) {
+/// base of this very study, but no other study and nothing that a sweep leaves at its end: without the table such a
+/// file, which would be replaced, may be the user's own.
+bool isSweep(const fs::path& folder, const Study& study, const Case& base) {
     if (Table::salvage(folder / "members.csv").has("member")) return true;
+    if (fs::exists(folder / "study.toml") && fileContent(folder / "study.toml") != study.text) return false;
     constexpr std::array<const char*, 4> kFromTheStart{"study.toml", "base.toml", "doses.csv", "members.csv"};
     for (const fs::path& file : SweepFolder::files(folder))
         if (std::find(kFromTheStart.begin(), kFromTheStart.end(), file.filename()) == kFromTheStart.end()) return false;
@@ -102,11 +103,11 @@ bool holdsNothing(const fs::path& folder) {
 }
 
 /// Refuses a folder that holds something else than a sweep over this base.
-void refuseOther(const fs::path& folder, const Case& base) {
+void refuseOther(const fs::path& folder, const Study& study, const Case& base) {
     std::error_code error;
     if (fs::exists(folder, error) && !fs::is_directory(folder, error))
         throw FolderError(fmt::format("{} is a file, not a folder; choose another with --out", folder.string()));
-    if (!isSweep(folder, base) && !holdsNothing(folder))
+    if (!isSweep(folder, study, base) && !holdsNothing(folder))
         throw FolderError(
             fmt::format("{} holds something else than a sweep; choose another folder with --out", folder.string()));
 }
@@ -134,8 +135,8 @@ SweepFolder::SweepFolder(fs::path folder, const Study& study, const std::vector<
     : folder_(std::move(folder)), study_(study.file.string()), open_(manner == Manner::Open) {
     std::error_code error;
     const Case base = loadCase(study.base);
-    refuseOther(folder_, base);
-    const bool former = isSweep(folder_, base);
+    refuseOther(folder_, study, base);
+    const bool former = isSweep(folder_, study, base);
     const bool made = fs::create_directories(folder_, error);
     if (error) throw FolderError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
     lock();
@@ -243,7 +244,7 @@ void SweepFolder::gatherResults() {
 }
 
 void SweepFolder::requireUsable(const fs::path& folder, const Study& study) {
-    refuseOther(folder, loadCase(study.base));
+    refuseOther(folder, study, loadCase(study.base));
 }
 
 /// What the member was when it began in the folder as another case; empty if it did not.

@@ -106,7 +106,7 @@ std::vector<std::string> figureNames(const Case& c) {
     for (const CycleFigure& f : kCycleFigures) names.push_back(std::string(kCycleName) + "." + f.name);
     for (const ElementTest& m : c.measures)
         for (const std::string& figure : figureNames(m)) names.push_back(m.name + "." + figure);
-    for (const std::string& body : bodyNames(c.world))
+    for (const std::string& body : loadNames(c.world))
         forEachColumn(kBodyPeakColumns, [&](const auto& column) { names.push_back(body + "." + column.name); });
     return names;
 }

@@ -164,7 +164,7 @@ Scene sceneOf(const Case& c, double tipVelocity) {
     scene.canister = c.canister;
     scene.coil = c.world.coil;
     scene.bodies = c.world.bodies;
-    scene.loaded = bodyNames(c.world);
+    scene.loaded = loadNames(c.world);
     for (const RigidBody& body : scene.bodies) scene.skins.push_back(bodySkin(body));
     if (tipVelocity > 0) scene.fast = tipVelocity;
     return scene;

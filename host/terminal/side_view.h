@@ -17,9 +17,9 @@ struct Scene {
     std::optional<Canister> canister;
     std::optional<geometry::Coil> coil;
     std::vector<RigidBody> bodies;
-    std::vector<std::string> loaded;  ///< bodyNames
-    std::vector<Skin> skins;  ///< of the bodies in their own frames, without shapes that go on for ever
-    double fast = 0.1;        ///< speed that has the colour of what moves [m/s]
+    std::vector<std::string> loaded;  ///< loadNames
+    std::vector<Skin> skins;          ///< of the bodies in their own frames, without shapes that go on for ever
+    double fast = 0.1;                ///< speed that has the colour of what moves [m/s]
 };
 
 /// The scene of a case; `tipVelocity` is the coil's (Derived::tipVelocity), 0 for none [m/s].

@@ -51,7 +51,7 @@ void column(Stage& stage) {
 namespace {
 
 /// Floor y = 0 and four walls around a square of twice `half`.
-std::vector<geometry::Surface> boxAround(double half) {
+std::vector<Wall> boxAround(double half) {
     return {geometry::Plane{Vec3(0), Vec3(0, 1, 0)}, geometry::Plane{Vec3(-half, 0, 0), Vec3(1, 0, 0)},
             geometry::Plane{Vec3(half, 0, 0), Vec3(-1, 0, 0)}, geometry::Plane{Vec3(0, 0, -half), Vec3(0, 0, 1)},
             geometry::Plane{Vec3(0, 0, half), Vec3(0, 0, -1)}};
@@ -82,10 +82,11 @@ double weightOf(const Particles& p) {
 /// Force of every surface on the particles at rest. These are spring forces, because there is no velocity to damp.
 std::vector<Vec3> reactions(const RuledWorld& world, Trial& trial) {
     const ContactParameters& law = world.law.of(ContactClass::ParticleWall);
-    std::vector<Vec3> force(world.surfaces.size(), Vec3(0));
+    std::vector<Vec3> force(world.walls.size(), Vec3(0));
     for (const Contact& c : trial.contacts()) {
         if (c.kind != ContactClass::ParticleWall) continue;
-        const geometry::Closest at = geometry::closestPoint(world.surfaces[c.other], trial.now().position[c.particle]);
+        const geometry::Closest at =
+            geometry::closestPoint(world.walls[c.other].shape, trial.now().position[c.particle]);
         const double overlap = trial.now().radius[c.particle] - at.distance;
         force[c.other] += law.k1 * overlap * at.normal - law.kt * c.sliding;
     }
@@ -118,7 +119,7 @@ Borne borneAt(Stage& stage, const RuledWorld& world, Trial& trial, double half, 
         borne.weight += massOf(p.radius[i]) * kGravity * shareAbove(p.position[i].y, level, request.width);
     for (const Contact& c : trial.contacts()) {
         if (c.kind != ContactClass::ParticleWall) continue;
-        const double y = geometry::closestPoint(world.surfaces[c.other], p.position[c.particle]).point.y;
+        const double y = geometry::closestPoint(world.walls[c.other].shape, p.position[c.particle]).point.y;
         borne.weight -= c.force.y * shareAbove(y, level, request.width);
     }
     return borne;
@@ -133,7 +134,8 @@ void bedWeight(Stage& stage) {
     const double half = 2.6 * kRadius;
     for (const double mu : {0.0, 0.5}) {
         RuledWorld world = floor(grain(mu, 0), kStep);
-        world.surfaces = boxAround(half);
+        world.walls = boxAround(half);
+        world.wallLoads = true;
         const Particles bed = grid(2, mu > 0 ? 32 : 16);
         Trial trial(stage, world, bed);
         trial.advanceTo(0.6);
@@ -144,6 +146,11 @@ void bedWeight(Stage& stage) {
         const Tolerance atRest{1e-3, "remaining motion, in units of the weight", weight};
         const std::string kind = mu > 0 ? ", rough" : ", smooth";
         stage.check("borne by floor and walls" + kind, "N", weight, total.y, atRest);
+        const std::vector<BodyLoad> loads = trial.advance(200).bodies;
+        Vec3 told(0);
+        for (const BodyLoad& load : loads) told += load.force;
+        stage.check("told as loads of floor and walls" + kind, "N", weight, -told.y, atRest);
+        stage.check("told as a load of the floor" + kind, "N", force[0].y, -loads.at(0).force.y, atRest);
         stage.check("left to right" + kind, "N", 0, total.x, atRest);
         stage.check("front to back" + kind, "N", 0, total.z, atRest);
         double top = 0;

@@ -196,7 +196,7 @@ void pushedByBodies(Stage& stage) {
     for (const Pusher& pusher : pushers) {
         RuledWorld world = space(spring(200, 0.05), 8e-5);
         world.gravity = kGravity * Vec3(0, -std::cos(slope), -std::sin(slope));
-        world.surfaces = {geometry::Trough{trough}};
+        world.walls = {geometry::Trough{trough}};
         world.bodies = {bodyOf({pusher.shape}, geometry::Turn{Vec3(0, 0, 1), Vec3(0), 1})};
         world.bodies[0].clock = Clock::Drive;
         Particles one;  // at the bottom, before the blade that passes it there

@@ -94,6 +94,10 @@ void jkrPath(Stage& stage);
 void jkrRestitution(Stage& stage);
 void jkrLedger(Stage& stage);
 
+// user_law.cpp
+void userLawRemembers(Stage& stage);
+void userLawReaches(Stage& stage);
+
 // materials.cpp
 void materialsHertz(Stage& stage);
 void materialsLuding(Stage& stage);

@@ -70,7 +70,7 @@ Particles played(Stage& stage, const Impacts& impacts, const Elasticity& a, cons
         particles.add(Vec3(0, s.radius, apart * static_cast<double>(i)), s.radius,
                       Vec3(s.along, -share * impacts.towards, 0), Vec3(0, 0, s.spin));
     }
-    if (!pairs) world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    if (!pairs) world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     for (std::size_t i = 0; pairs && i < impacts.lower.size(); ++i) {
         const Striker& s = impacts.lower[i];
         particles.add(Vec3(0, -s.radius, apart * static_cast<double>(i)), s.radius,

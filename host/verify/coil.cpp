@@ -133,7 +133,7 @@ void pushedAlongTrough(Stage& stage) {
         RuledWorld world = space(p, 8e-5);
         world.gravity = kGravity * Vec3(0, -std::cos(slope), -std::sin(slope));
         world.coil = coil;
-        world.surfaces = {geometry::Trough{kTrough}};
+        world.walls = {geometry::Trough{kTrough}};
         Particles one;  // at the bottom, before the wire that passes it there
         one.add(Vec3(0, -(kTrough - kRadius), 0.75 * coil.pitch + 1.05 * (kRadius + coil.wireRadius)), kRadius);
         Trial trial(stage, world, one);

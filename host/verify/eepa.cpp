@@ -70,7 +70,7 @@ void eepaPath(Stage& stage) {
     const Pressed known(p, 2 * kRadius, 2e-5);
     const double mass = massOf(kRadius), speed = known.speed(mass), step = known.largest / speed / 3000;
     RuledWorld world = stickySpace(p, step);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, kRadius, 0), kRadius, Vec3(0, -speed, 0));
     Trial trial(stage, world, sphere);

@@ -82,7 +82,7 @@ void drivenBody(Stage& stage) {
     const double k = 500, gamma = 0.05, dt = 2e-6, force = 5e-3, mass = 1e-4, damping = 0.02, stop = 1.5e-3;
     const Vec3 way = glm::normalize(Vec3(2, 1, -2)), y(0, 1, 0);
     RuledWorld world = space(spring(k, gamma), dt);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), y});
+    world.walls.push_back(geometry::Plane{Vec3(0), y});
     const auto driven = [&](const geometry::Shape& shape, const Vec3& at, const geometry::Free& free) {
         RigidBody body = bodyOf({shape}, free);
         body.name = fmt::format("driven-{}", world.bodies.size());
@@ -167,7 +167,7 @@ void drivenHinge(Stage& stage) {
     p.mu = 0.5;
     RuledWorld world = space(p, dt);
     world.gravity = -kGravity * y;
-    world.surfaces.push_back(geometry::Plane{Vec3(0), y});
+    world.walls.push_back(geometry::Plane{Vec3(0), y});
     const auto hinged = [&](const Vec3& through, const Vec3& axis, double drive) {
         geometry::Hinge hinge;
         hinge.axis = axis;

@@ -42,7 +42,7 @@ double gainAt(Stage& stage, const ContactParameters& p, double degrees) {
     const double mass = massOf(kRadius), deepest = overlapOfImpact(p, mass, 2 * kRadius, towards);
     RuledWorld world = space(p, deepest / towards / 500);
     world.energyBook = true;
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, kRadius, 0), kRadius, Vec3(speed * std::sin(theta), -towards, 0),
                speed / kRadius * Vec3(0.1, 0.2, 0.1));

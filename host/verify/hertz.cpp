@@ -81,7 +81,7 @@ void hertzWall(Stage& stage) {
     stage.check("published force", "N", 11.370e3, known.force, {2e-4, "published to five digits"});
     stage.check("published duration", "s", 731.6e-6, known.duration, {5e-4, "published to four digits"});
     RuledWorld world = elasticSpace(p, density, radius, known.duration / 100);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, radius, 0), radius, Vec3(0, -speed, 0));
     Trial trial(stage, world, sphere);
@@ -124,7 +124,7 @@ void hertzOblique(Stage& stage) {
     const double slowest = speed * std::cos(80 * kPi / 180);
     const Impact longest(p, mass, 2 * radius, slowest), shortest(p, mass, 2 * radius, speed);
     RuledWorld world = elasticSpace(p, density, radius, shortest.duration / 500);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles spheres;
     for (std::size_t i = 0; i < degrees.size(); ++i) {
         const double theta = degrees[i] * kPi / 180;

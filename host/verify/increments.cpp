@@ -101,8 +101,8 @@ void smallStretches(Stage& stage) {
     for (const double dt : {1e-7, 1e-8}) {
         RuledWorld world = space(p, dt);
         world.density() = 1e12;  // so that the springs do not slow it down
-        world.surfaces.push_back(geometry::Plane{Vec3(0), normal});
-        world.surfaces.push_back(geometry::Plane{(2 * (a - sinking)) * normal, -normal});
+        world.walls.push_back(geometry::Plane{Vec3(0), normal});
+        world.walls.push_back(geometry::Plane{(2 * (a - sinking)) * normal, -normal});
         Particles one;
         one.add((a - sinking) * normal, a, fast * along);
         Trial trial(stage, world, one);

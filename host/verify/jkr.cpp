@@ -63,7 +63,7 @@ void jkrPath(Stage& stage) {
     const double deepest = known.overlap(widest), reach = -known.overlap(known.lost());
     RuledWorld world = space(p, deepest / speed / 3000);
     world.energyBook = true;
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, kRadius, 0), kRadius, Vec3(0, -speed, 0));
     Trial trial(stage, world, sphere);
@@ -130,7 +130,7 @@ void jkrLedger(Stage& stage) {
     RuledWorld world = space(p, deepest / towards / 1000);
     world.energyBook = true;
     world.law.limitFriction(CoulombLimit::Luding);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, kRadius, 0), kRadius, Vec3(along, -towards, 0));
     Trial trial(stage, world, sphere);

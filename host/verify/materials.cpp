@@ -152,7 +152,7 @@ void materialsSliding(Stage& stage) {
     world.materials.push_back({"plate", false, 0});
     const int plateMaterial = static_cast<int>(world.materials.size()) - 1;
     world.law.pairs.resize(plateMaterial + 1);
-    world.surfaceMaterials = {std::uint8_t(kFloorMaterial)};
+    world.walls.front().material = kFloorMaterial;
     RigidBody plate;
     plate.name = "plate";
     plate.shapes = {geometry::Block{Vec3(-0.2, -0.01, -0.2), Vec3(0.2, 0, 0.2)}};

@@ -125,7 +125,7 @@ void periodScrew(Stage& stage) {
     const geometry::Flight blade{3e-3, 11e-3, 1e-3, pitch, pitch, 6 * kPi, -pitch, 0, 1};
     RuledWorld world = space(spring(200, 0.05), 8e-5);
     world.gravity = kGravity * Vec3(0, -std::cos(slope), -std::sin(slope));
-    world.surfaces = {geometry::Trough{trough}};
+    world.walls = {geometry::Trough{trough}};
     world.bodies = {bodyOf({blade}, geometry::Turn{Vec3(0, 0, 1), Vec3(0), 1})};
     world.bodies[0].clock = Clock::Drive;
     repeat(world, 2, 0, pitch);

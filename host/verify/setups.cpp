@@ -52,7 +52,7 @@ RigidBody bodyOf(std::vector<geometry::Shape> shapes, geometry::Motion motion) {
 RuledWorld floor(const ContactParameters& p, double timeStep, double gravity, double tilt) {
     RuledWorld world = space(p, timeStep);
     world.gravity = gravity * Vec3(std::sin(tilt), -std::cos(tilt), 0);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     return world;
 }
 
@@ -77,7 +77,7 @@ Sensors Trial::advanceTo(double seconds, double coilRate) {
 SlippingImpact slippingImpact(Stage& stage, RuledWorld world, double radius, double along, double towards,
                               double restitution, std::uint64_t steps) {
     world.energyBook = true;
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     Particles sphere;
     sphere.add(Vec3(0, radius, 0), radius, Vec3(along, -towards, 0));
     Trial trial(stage, world, sphere);

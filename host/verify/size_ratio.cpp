@@ -49,8 +49,8 @@ RuledWorld wedges(const ContactParameters& p, double timeStep, double gravity) {
     world.gravity = Vec3(0, -gravity, 0);
     for (std::size_t i = 0; i < std::size(kRatios); ++i)
         for (const double side : {-1.0, 1.0})
-            world.surfaces.push_back(cylinder(Vec3(kFar * static_cast<double>(i) + side * wedge(kRatios[i]).half, 0, 0),
-                                              kRatios[i] * kRadius));
+            world.walls.push_back(cylinder(Vec3(kFar * static_cast<double>(i) + side * wedge(kRatios[i]).half, 0, 0),
+                                           kRatios[i] * kRadius));
     return world;
 }
 
@@ -113,7 +113,7 @@ void rollOff(Stage& stage) {
     Particles p;
     for (std::size_t i = 0; i < n; ++i) {
         axes.emplace_back(kFar * static_cast<double>(i), 0, 0);
-        world.surfaces.push_back(cylinder(axes[i], kRatios[i] * kRadius));
+        world.walls.push_back(cylinder(axes[i], kRatios[i] * kRadius));
         p.add(axes[i] + ((kRatios[i] + 1) * kRadius - sinking) * Vec3(std::sin(start), std::cos(start), 0), kRadius);
     }
     Trial trial(stage, world, p);
@@ -213,8 +213,7 @@ std::vector<Descent> descend(Stage& stage, const std::vector<double>& ratios, do
         const Neck neck(ratios[i]);
         const double length = 0.02;
         for (const double base : {-neck.halfGap - length, neck.halfGap})
-            world.surfaces.push_back(
-                geometry::Tube{axis(i) + Vec3(0, 0, base), Vec3(0, 0, 1), neck.rim, length, false});
+            world.walls.push_back(geometry::Tube{axis(i) + Vec3(0, 0, base), Vec3(0, 0, 1), neck.rim, length, false});
         p.add(axis(i) + neck.orbit * Vec3(std::sin(start), std::cos(start), 0), kRadius);
     }
     Trial trial(stage, world, p);

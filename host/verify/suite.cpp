@@ -65,6 +65,8 @@ std::vector<Scene> scenes() {
         {"jkr/path", "an elastic adhesive sphere meets a wall and parts", jkrPath},
         {"jkr/restitution", "such spheres collide, rebound or stick", jkrRestitution},
         {"jkr/ledger", "what an adhesive impact that slips loses", jkrLedger},
+        {"user-law/memory", "a sphere meets a wall under a law with a memory that a user wrote", userLawRemembers},
+        {"user-law/reach", "spheres meet under such a law that acts beyond touch", userLawReaches},
         {"materials/hertz", "elastic spheres of two powders collide", materialsHertz},
         {"materials/luding", "plastic spheres of two powders collide", materialsLuding},
         {"materials/sliding", "spheres of two powders slide on a floor and on a body", materialsSliding},

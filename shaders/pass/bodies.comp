@@ -6,10 +6,10 @@
 // Each place where the body is touched is a contact. It goes on with the contact of the last step whose direction in
 // the frame of the body is nearest to its own, within 45 degrees, and the springs turn with it (geometry/matching.h).
 #extension GL_GOOGLE_include_directive : require
-#include "law/grown.glsl"
 #include "shared/buffers.glsl"
 #include "pass/bodies.glsl"
 #include "pass/history.glsl"
+#include "pass/loads.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
@@ -89,11 +89,6 @@ Exerted exertedAt(uint slot, uint place) {
                    historyAt(placeHistoryIndex(slot, place, 5u)));
 }
 #endif
-
-void load(uint body, uint i, uint number, float value) {
-    uint at = bodyLoadIndex(kBodyLoads * body + number, i);
-    bodyLoads[at] = grown(bodyLoads[at], value);
-}
 
 void main() {
     openMember();
@@ -208,11 +203,5 @@ void main() {
     booked = slotBook.flow.w;
 #endif
     writeTorque(slot, vec4(torque, booked));
-    if (overlap != 0.0) {
-        for (uint d = 0u; d < 3u; ++d) {
-            load(body, i, d, force[d]);
-            load(body, i, 3u + d, moment[d]);
-        }
-        load(body, i, 6u, work);
-    }
+    if (overlap != 0.0) addLoad(body, i, force, moment, work);
 }

@@ -1,6 +1,7 @@
 #version 450
 // surfaces: computes the contacts with the fixed surfaces in this step, one listed contact per invocation.
-// Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers.
+// Reads the source half of the state, entries, history; writes history, forces and torques, which `move` gathers, and
+// the sums of what the particle does to each surface if a member asks for them.
 // A contact that does not touch exerts nothing and remembers nothing.
 //
 // Where walls go on into the throat, two surfaces may overlap a sphere in one contact, and the history passes from one
@@ -9,6 +10,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/history.glsl"
+#include "pass/loads.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
@@ -72,7 +74,8 @@ void main() {
     bool frontTouches = joints() && holds(law, front.depth, reduced, frontMemory.springs.slidingMax.w);
 
     for (; slot < end; ++slot) {
-        SurfaceParams p = readSurface(surfaceOf(entriesAt(slot).y));
+        uint surface = surfaceOf(entriesAt(slot).y);
+        SurfaceParams p = readSurface(surface);
         uint kind = uint(p.pointHigh.w);
         if (ownLaws()) law = lawOf(pairIndex(me.material, materialOfWall(p)));
         Overlap o = surfaceOverlap(KIND_SET, kind, p, me.sphere);
@@ -120,6 +123,10 @@ void main() {
         keepHistory(slot, h, touching);
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
+        if (WALL_LOADS != 0u && touching) {
+            vec3 point = me.sphere.high - o.normal * (me.sphere.radius - 0.5 * o.depth);
+            addLoad(BODIES + surface, who.x, f.force, cross(point, f.force) + f.couple, 0.0);
+        }
 #ifdef ENERGY_BOOK
         bookSurface(law, springDt, slot, me, o, r, touching, lawBefore, memory.exerted, memory.springs, h);
 #endif

@@ -13,7 +13,7 @@ constexpr double kExact = 1e-12;  // of the radius: rounding of a few operations
 
 World boxWithCoil() {
     World world;
-    world.surfaces.push_back(geometry::Plane{{0, -10e-3, 0}, {0, 1, 0}});
+    world.walls.push_back(geometry::Plane{{0, -10e-3, 0}, {0, 1, 0}});
     world.coil = geometry::Coil{};
     world.coil->radius = 5e-3;
     world.coil->pitch = 20e-3;

@@ -17,7 +17,7 @@ const DeviceRoom kWide{kPlenty, kPlenty, 65535};
 TableSizes tablesOf(std::size_t particles, std::size_t surfaces = 1) {
     World world;
     world.skin = 0.1e-3;
-    for (std::size_t i = 0; i < surfaces; ++i) world.surfaces.emplace_back(geometry::Plane{{0, 0, 0}, {0, 0, 1}});
+    for (std::size_t i = 0; i < surfaces; ++i) world.walls.emplace_back(geometry::Plane{{0, 0, 0}, {0, 0, 1}});
     Particles p;
     for (std::size_t i = 0; i < particles; ++i) p.add({}, 1e-3);
     return roomOf(world, p);

@@ -67,7 +67,7 @@ constexpr double kShift = 0.1, kOnAverage = 0.01;
 /// Empty space in which every pair is in the list from the start.
 RuledWorld space() {
     RuledWorld world = paperWorld();
-    world.surfaces.clear();
+    world.walls.clear();
     world.gravity = Vec3(0);
     world.skin = 1;
     world.domain = {};

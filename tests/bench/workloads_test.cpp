@@ -72,7 +72,7 @@ TEST_CASE("a bed with a mesh is at rest around ten thousand triangles that its s
     backend->advance(1, 0);
     const auto contacts = backend->contacts();
     for (const Contact& c : contacts) stored += 0.5 * w.world.law.of(c.kind).k1 * c.maxOverlap * c.maxOverlap;
-    const std::size_t walls = w.world.surfaces.size();
+    const std::size_t walls = w.world.walls.size();
     CHECK(std::count_if(contacts.begin(), contacts.end(), [&](const Contact& c) {
               return c.kind == ContactClass::ParticleWall && c.other == walls;
           }) > 100);

@@ -71,7 +71,7 @@ TEST_CASE("bodies: walls as a body move particles as the same walls as surfaces"
     surfaces.gravity = Vec3(0, -kGravity, 0);
     const geometry::Plane floor{Vec3(0, -12e-3, 0), Vec3(0, 1, 0)}, side{Vec3(-6e-3, 0, 0), Vec3(1, 0, 0)};
     RuledWorld bodies = surfaces;
-    surfaces.surfaces = {floor, side};
+    surfaces.walls = {floor, side};
     bodies.bodies.push_back(bodyOf({floor, side}));
     CHECK(apart(surfaces, bodies, handful(-9e-3), 20'000, 0) < 1e-6);
     // The same room, turned and shifted in its own frame.

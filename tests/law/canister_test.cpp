@@ -40,8 +40,8 @@ RuledWorld smallCanister() {
     RuledWorld world = freeWorld(softParameters(), 1e-5);
     world.gravity = Vec3(0, -kGravity, 0);
     world.skin = 0.2e-3;
-    world.surfaces = {geometry::Trough{kTroughRadius, 24e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
-                      geometry::Front{24e-3, kTroughRadius, 6e-3}};
+    world.walls = {geometry::Trough{kTroughRadius, 24e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
+                   geometry::Front{24e-3, kTroughRadius, 6e-3}};
     world.coil = coilOf(30e-3, 1);
     world.throatZ = 24e-3;
     world.outletZ = 30e-3;
@@ -90,7 +90,7 @@ TEST_CASE("canister: the coil pushes a particle at V_z = p Omega / 2 pi") {
         RuledWorld world = freeWorld(softParameters(), 1e-5);
         world.gravity = Vec3(0, -kGravity, 0);
         for (ContactParameters& p : world.law.pairs) p.kc = 0;
-        world.surfaces = {geometry::Trough{kTroughRadius}};
+        world.walls = {geometry::Trough{kTroughRadius}};
         const Coil coil = coilOf(70e-3, hand);
         world.coil = coil;
         Particles one;
@@ -250,7 +250,7 @@ TEST_CASE("canister: a heap settles on the coil, is dosed, and the ledger closes
     const Particles end = backend->particles();
     for (std::size_t i = 0; i < end.size(); ++i) {
         if (end.status[i] != Status::Active) continue;
-        const geometry::Closest trough = geometry::closestPoint(world.surfaces[0], end.position[i]);
+        const geometry::Closest trough = geometry::closestPoint(world.walls[0].shape, end.position[i]);
         CHECK(trough.distance > 0.9 * end.radius[i]);  // nobody has got through the wall
     }
 }

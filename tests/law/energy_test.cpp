@@ -181,8 +181,8 @@ RuledWorld smallCanister(double timeStep) {
     RuledWorld world = freeWorld(p, timeStep);
     world.gravity = Vec3(0, -kGravity, 0);
     world.maxOverlapRatio = 1;
-    world.surfaces = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
-                      geometry::Front{16e-3, 8e-3, 3e-3}};
+    world.walls = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
+                   geometry::Front{16e-3, 8e-3, 3e-3}};
     world.coil = geometry::Coil{6.5e-3, 6e-3, 0.9e-3, 19e-3};
     world.domain = {Vec3(-0.02), Vec3(0.02, 0.1, 0.05)};
     world.throatZ = 16e-3;

@@ -39,7 +39,7 @@ Particles farAway() {
 RuledWorld lidWorld(const ContactParameters& p, double mass, double gap) {
     RuledWorld world = worldWith({geometry::Cone{Vec3(0), Vec3(0, 0, 1), 0, 12e-3, 0}}, {mass, Vec3(0), Vec3(0, 0, 1)},
                                  Vec3(0, 0, 2 * kRadius + gap), p);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
     return world;
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("free bodies: with the automatic step a lid comes to rest on hundreds 
     p.gamma = 0.2 * std::sqrt(p.k1 * massOf(kRadius));
     RuledWorld world = worldWith({geometry::Cone{Vec3(0), Vec3(0, 0, 1), 0, kLid, 0}}, {1, Vec3(0, 0, -0.02), {}},
                                  Vec3(0, 0, 2 * kRadius + 1e-5), p);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 0, 1)});
     Particles layer;
     for (int i = -12; i <= 12; ++i)
         for (int j = -12; j <= 12; ++j) {

@@ -44,7 +44,7 @@ RuledWorld flapOverSpheres() {
     hinge.axis = Vec3(0, 1, 0);
     hinge.rate = 10;
     RuledWorld world = hingeWorld({geometry::Cone{Vec3(8e-3, 0, 0), z, 0, 12e-3, 0}}, hinge, paperParameters(0.1));
-    world.surfaces.push_back(geometry::Plane{Vec3(0), z});
+    world.walls.push_back(geometry::Plane{Vec3(0), z});
     return world;
 }
 

@@ -273,7 +273,7 @@ TEST_CASE("reference: an overlap beyond a fifth of the radius is an error that n
     Particles one;
     one.add(Vec3(0, 0.79 * kRadius, 0), kRadius);
     backend->load(planeWorld(paperParameters(), 1e-6), one);
-    CHECK_THAT(errorOf(*backend, 1), Contains("particle 0 and surface 0"));
+    CHECK_THAT(errorOf(*backend, 1), Contains("particle 0 and wall 0"));
 
     one.position[0].y = 0.81 * kRadius;
     backend->load(planeWorld(paperParameters(), 1e-6), one);

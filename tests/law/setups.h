@@ -68,7 +68,7 @@ inline RuledWorld freeWorld(const ContactParameters& p, double timeStep) {
 /// The same with the plane y = 0 below.
 inline RuledWorld planeWorld(const ContactParameters& p, double timeStep) {
     RuledWorld world = freeWorld(p, timeStep);
-    world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     return world;
 }
 

@@ -40,8 +40,8 @@ RuledWorld dosingWorld() {
     world.gravity = Vec3(0, -kGravity, 0);
     world.maxOverlapRatio = 1;
     world.energyBook = true;
-    world.surfaces = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
-                      geometry::Front{16e-3, 8e-3, 3e-3}};
+    world.walls = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{Vec3(0), Vec3(0, 0, 1)},
+                   geometry::Front{16e-3, 8e-3, 3e-3}};
     world.coil = geometry::Coil{6.5e-3, 6e-3, 0.9e-3, 19e-3};
     world.coilSurfaceMoves = false;
     world.coilWireCurved = true;
@@ -137,7 +137,7 @@ TEST_CASE("surface velocity: a coil seen at rest still conveys at V_z") {
     }
     world.gravity = Vec3(0, -kGravity, 0);
     const double half = 11.5e-3;
-    world.surfaces = {geometry::Trough{half}};
+    world.walls = {geometry::Trough{half}};
     const geometry::Coil coil{10.4e-3, 8.75e-3, 1e-3, 70e-3, 0, 0.3, 1};
     world.coil = coil;
     world.coilSurfaceMoves = false;

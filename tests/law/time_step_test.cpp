@@ -34,8 +34,8 @@ RuledWorld boxed(double gamma, double timeStep) {
         Vec3 normal(0), far(0);
         normal[axis] = 1;
         far[axis] = high;
-        world.surfaces.push_back(geometry::Plane{low * normal, normal});
-        world.surfaces.push_back(geometry::Plane{far, -normal});
+        world.walls.push_back(geometry::Plane{low * normal, normal});
+        world.walls.push_back(geometry::Plane{far, -normal});
     }
     return world;
 }

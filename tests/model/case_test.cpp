@@ -56,10 +56,10 @@ TEST_CASE("the paper's case, value by value") {
     CHECK(c.schedule.stop.doses == 3);
     // 0.01 s / 2.26e-6 s = 4424.8 steps
     CHECK(c.sensorInterval / c.world.timeStep == Approx(4425).epsilon(1e-12));
-    REQUIRE(c.world.surfaces.size() == 3);
-    CHECK(std::get<geometry::Trough>(c.world.surfaces[0]).halfWidth == 11.5e-3);
-    CHECK(std::get<geometry::Plane>(c.world.surfaces[1]).normal == Vec3(0, 0, 1));
-    CHECK(std::get<geometry::Front>(c.world.surfaces[2]).holeRadius == 11.5e-3);
+    REQUIRE(c.world.walls.size() == 3);
+    CHECK(std::get<geometry::Trough>(c.world.walls[0].shape).halfWidth == 11.5e-3);
+    CHECK(std::get<geometry::Plane>(c.world.walls[1].shape).normal == Vec3(0, 0, 1));
+    CHECK(std::get<geometry::Front>(c.world.walls[2].shape).holeRadius == 11.5e-3);
 }
 
 TEST_CASE("every shipped case loads, says why it exists and survives being resolved") {
@@ -99,10 +99,10 @@ TEST_CASE("a resolved case with a list, planes and words of its own loads again"
         "[[cylinder]]\nbase = [0, 0, 0]\naxis = [0, 0, 2]\nradius_mm = 9\ninside = true\n";
     const Case c = loadCase(folder.write("deep/case.toml", text));
     CHECK(c.reason == "a \"quoted\" \\ word");
-    REQUIRE(c.world.surfaces.size() == 3);
-    CHECK(std::get<geometry::Plane>(c.world.surfaces[0]).normal == Vec3(0, 1, 0));
-    CHECK(std::get<geometry::Tube>(c.world.surfaces[2]).radius == 9e-3);
-    CHECK(std::isinf(std::get<geometry::Tube>(c.world.surfaces[2]).length));
+    REQUIRE(c.world.walls.size() == 3);
+    CHECK(std::get<geometry::Plane>(c.world.walls[0].shape).normal == Vec3(0, 1, 0));
+    CHECK(std::get<geometry::Tube>(c.world.walls[2].shape).radius == 9e-3);
+    CHECK(std::isinf(std::get<geometry::Tube>(c.world.walls[2].shape).length));
     // Elsewhere than the original: the path of the list must still hold.
     const Case again = loadCase(folder.write("resolved.toml", c.resolved));
     checkSame(c, again);
@@ -353,16 +353,16 @@ TEST_CASE("stop rules") {
 TEST_CASE("a lid closes the canister at its height, or above a fill that starts out higher") {
     const Folder folder;
     const auto file = folder.write("case.toml", kGoodCase);
-    const std::size_t open = loadCase(file).world.surfaces.size();
+    const std::size_t open = loadCase(file).world.walls.size();
     const Case low = loadCase(file, {"canister.lid=true"});
-    REQUIRE(low.world.surfaces.size() == open + 1);
-    const auto& lid = std::get<geometry::Plane>(low.world.surfaces.at(open - 1));  // before the front wall
+    REQUIRE(low.world.walls.size() == open + 1);
+    const auto& lid = std::get<geometry::Plane>(low.world.walls.at(open - 1).shape);  // before the front wall
     CHECK(lid.point.y == low.canister->height - low.canister->width / 2);
     CHECK(lid.normal == Vec3(0, -1, 0));
     CHECK(low.world.domain.high.y > lid.point.y);
 
     const Case high = loadCase(file, {"canister.lid=true", "canister.height_mm=16"});
-    const double top = std::get<geometry::Plane>(high.world.surfaces.at(open - 1)).point.y;
+    const double top = std::get<geometry::Plane>(high.world.walls.at(open - 1).shape).point.y;
     CHECK(top == insertParticles(high).fillHeight);
     CHECK(top > high.canister->height - high.canister->width / 2);
 }
@@ -371,12 +371,12 @@ TEST_CASE("flat floor and free boundaries") {
     const Folder folder;
     const Case flat = loadCase(folder.write("case.toml", kGoodCase), {"canister.floor=flat"});
     CHECK(flat.canister->flatFloor);
-    REQUIRE(flat.world.surfaces.size() == 5);
-    CHECK(std::get<geometry::Plane>(flat.world.surfaces[2]).point.y == -7e-3);
+    REQUIRE(flat.world.walls.size() == 5);
+    CHECK(std::get<geometry::Plane>(flat.world.walls[2].shape).point.y == -7e-3);
 
     folder.write("two.csv", "x,y,z,r\n0,0,0,1e-3\n0,3e-3,0,1e-3\n");
     const Case free = loadCase(folder.write("free.toml", kFreeCase));
-    CHECK(free.world.surfaces.empty());
+    CHECK(free.world.walls.empty());
     CHECK_FALSE(free.world.coil);
     CHECK_FALSE(free.canister);
     CHECK(std::isinf(free.world.outletZ));

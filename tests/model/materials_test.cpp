@@ -18,7 +18,7 @@ World twoPowders() {
     w.density() = 1000;
     w.materials.push_back({"salt", true, 2000});
     w.materials.push_back({"plate", false, 0});
-    w.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
+    w.walls = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
     return w;
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("materials: pairs occur of powders with powders, and with what there i
     World w = twoPowders();
     CHECK(pairNames(w) ==
           std::set<std::string>{"particle-particle", "particle-salt", "particle-wall", "salt-salt", "salt-wall"});
-    w.surfaceMaterials = {kPlate};
+    w.walls.front().material = kPlate;
     w.coil = geometry::Coil{};
     CHECK(pairNames(w) == std::set<std::string>{"particle-particle", "particle-salt", "particle-plate", "particle-coil",
                                                 "salt-salt", "salt-plate", "salt-coil"});

@@ -166,7 +166,7 @@ TEST_CASE("bodies and walls have materials of their own") {
     const int steel = 4;
     REQUIRE(c.world.materials.size() == 5);
     CHECK(c.world.bodies[0].material == steel);
-    for (std::size_t s = 0; s < c.world.surfaces.size(); ++s) CHECK(c.world.materialOf(s) == steel);
+    for (const Wall& wall : c.world.walls) CHECK(wall.material == steel);
     CHECK(c.dosingLaw.between(0, steel).mu == 0.9);
     CHECK(c.dosingLaw.between(3, steel).mu == 0.9);   // the second powder has what the first has there
     CHECK(c.dosingLaw.between(0, steel).muR == 0.2);  // and that takes the rest from the walls

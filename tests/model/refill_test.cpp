@@ -89,7 +89,7 @@ TEST_CASE("a refill without room says what is in its way") {
     Case c = loadText(kFilled + kSpoon);
     CHECK_NOTHROW(placeRefill(c, insertParticles(c), 0, insertParticles(c).particles, Clearance(c.world)));
     Case walled = c;
-    walled.world.surfaces.emplace_back(geometry::Plane{{0, insertParticles(c).fillHeight + 1e-4, 0}, {0, -1, 0}});
+    walled.world.walls.emplace_back(geometry::Plane{{0, insertParticles(c).fillHeight + 1e-4, 0}, {0, -1, 0}});
     refused(walled, "would overlap a wall by");
     Case low = c;
     low.world.domain.high.y = insertParticles(c).fillHeight;

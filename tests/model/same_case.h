@@ -28,7 +28,7 @@ inline void checkSame(const Case& a, const Case& b) {
     CHECK(a.seed == b.seed);
     checkSameLaw(a.dosingLaw, b.dosingLaw);
     checkSameLaw(a.settlingLaw, b.settlingLaw);
-    CHECK(a.world.surfaces.size() == b.world.surfaces.size());
+    CHECK(a.world.walls.size() == b.world.walls.size());
     CHECK(a.world.gravity == b.world.gravity);
     CHECK(a.world.density() == b.world.density());
     CHECK(a.world.coilSurfaceMoves == b.world.coilSurfaceMoves);

@@ -10,6 +10,7 @@
 #include "host/model/user_law_trial.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
+#include "tests/support/near.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
@@ -71,6 +72,24 @@ void loadTried(std::size_t answered, double reach = 0, const std::vector<std::st
 }
 
 }  // namespace
+
+TEST_CASE("what single precision changes of a law's answers is told by its size and place") {
+    const auto shifted = [](double by) {
+        return [by](const LawLoading& loading, std::size_t k) {
+            LawPoint p = answerAt(loading, k, 0);
+            p.force += by * loading.own[0] * loading.deepest;
+            return p;
+        };
+    };
+    const Case exact = loadOn(shifted(0));
+    CHECK_FALSE(exact.lawRounding);
+    const Case wrong = loadOn(shifted(0.01));
+    REQUIRE(wrong.lawRounding);
+    CHECK(wrong.lawRounding->function == "force");
+    CHECK(wrong.lawRounding->pair == "particle-particle");
+    CHECK(near(wrong.lawRounding->share, 0.01, 0.01, 1e-3));
+    CHECK(near(wrong.lawRounding->device, 1.01 * wrong.lawRounding->exact, wrong.lawRounding->exact, 1e-3));
+}
 
 TEST_CASE("a trial that the device does not make, or not to its end, is a fault of the law") {
     CHECK_NOTHROW(loadTried(kPoints));

@@ -24,7 +24,7 @@ namespace {
 Case smallWorld(bool contacts = true) {
     Case c;
     c.world.density() = 1000;
-    c.world.surfaces = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
+    c.world.walls = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
     c.world.coil = geometry::Coil{0.01, 0.01, 0.001, 0.05};
     c.frames = {0.01, contacts};
     return c;

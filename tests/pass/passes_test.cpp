@@ -153,7 +153,7 @@ TEST_CASE("the lists hold every contact within the slack once, and the links nam
     RuledWorld world = emptyWorld();
     world.timeStep = 1e-9;
     world.skin = 0.4e-3;
-    world.surfaces = {geometry::Plane{{0, -0.004, 0}, {0, 1, 0}}, geometry::Plane{{-0.003, 0, 0}, {1, 0, 0}}};
+    world.walls = {geometry::Plane{{0, -0.004, 0}, {0, 1, 0}}, geometry::Plane{{-0.003, 0, 0}, {1, 0, 0}}};
     world.maxOverlapRatio = 1e9;
     const std::size_t n = 257;
     Particles p = cloud(n, 0.015, 5);
@@ -281,8 +281,8 @@ TEST_CASE("indices of 32 bits reach for a hundred million spheres") {
     RuledWorld world = emptyWorld();
     world.skin = 0.75e-3;
     world.coil = geometry::Coil{};
-    world.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Trough{0.0115},
-                      geometry::Plane{{0, 0, 0}, {0, 0, 1}}};
+    world.walls = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Trough{0.0115},
+                   geometry::Plane{{0, 0, 0}, {0, 0, 1}}};
     gpu::Member member{};
     for (int i = 0; i < 3; ++i) member.surface[i].pointHigh.w = float(gpu::kPlane);
     for (const bool book : {false, true}) {

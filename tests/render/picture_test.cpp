@@ -321,8 +321,8 @@ TEST_CASE("the outline lies on the surfaces") {
             for (const render::Line& line : render::outlineOf(c, towards, content, {}))
                 for (const Vec3& x : line) {
                     double nearest = 1;
-                    for (const geometry::Surface& s : c.world.surfaces)
-                        nearest = std::min(nearest, std::abs(geometry::closestPoint(s, x).distance));
+                    for (const Wall& wall : c.world.walls)
+                        nearest = std::min(nearest, std::abs(geometry::closestPoint(wall.shape, x).distance));
                     CHECK(near(nearest, 0, 7e-3, 1e-6));
                     ++points;
                 }
@@ -336,7 +336,7 @@ TEST_CASE("the outline lies on the surfaces") {
 TEST_CASE("boundaries that are no canister are drawn as far as the powder reaches") {
     Case c = mini();
     c.canister.reset();
-    c.world.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Tube{{0, 0, 0}, {0, 1, 0}, 0.01}};
+    c.world.walls = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Tube{{0, 0, 0}, {0, 1, 0}, 0.01}};
     const Box content{{-0.02, -0.01, -0.03}, {0.02, 0.03, 0.03}};
     const std::vector<render::Line> lines = render::outlineOf(c, {-1, 0, 0}, content, {});
     REQUIRE(lines.size() == 5);  // the plane's rectangle, two rings, two sides
@@ -357,7 +357,7 @@ TEST_CASE("boundaries that are no canister are drawn as far as the powder reache
 TEST_CASE("the body that holds the powder is seen through, one that stands in it is not") {
     Case c = mini();
     c.canister.reset();
-    c.world.surfaces.clear();
+    c.world.walls.clear();
     c.world.coil.reset();
     RigidBody drum, rod, floor;
     drum.shapes = {geometry::Cone{{0, 0, -20e-3}, {0, 0, 1}, 20e-3, 20e-3, 60e-3}};

@@ -80,7 +80,7 @@ TEST_CASE("the forces of the contacts are what moves the particles, and survive 
 TEST_CASE("a sphere at rest presses on the floor with its weight") {
     const bool reference = GENERATE(false, true);
     RuledWorld w = emptyWorld();
-    w.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
+    w.walls = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
     const double a = single(1.25e-3);
     Particles p;
     p.add({0.01, a, 0.02}, a);

@@ -22,8 +22,8 @@ RuledWorld dosingWorld() {
         p.k1 /= 10, p.k2Max /= 10, p.kc /= 10, p.kt /= 10, p.kr /= 10, p.kTo /= 10;
         p.gamma /= 3, p.gammaT /= 3, p.gammaR /= 3, p.gammaTo /= 3;
     }
-    w.surfaces = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
-                  geometry::Front{16e-3, 8e-3, 3e-3}};
+    w.walls = {geometry::Trough{8e-3, 16e-3}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
+               geometry::Front{16e-3, 8e-3, 3e-3}};
     w.coil = geometry::Coil{6.5e-3, 6e-3, 0.9e-3, 19e-3};
     w.domain = {Vec3(-0.02), Vec3(0.02, 0.1, 0.05)};
     w.throatZ = 16e-3;
@@ -281,7 +281,7 @@ TEST_CASE("energy: keeping the book changes no bit of the motion") {
 
 TEST_CASE("energy: what a dosed particle had in its contacts leaves with it") {
     RuledWorld w = dosingWorld();
-    w.surfaces.clear();
+    w.walls.clear();
     w.coil.reset();
     w.gravity = Vec3(0);
     w.outletZ = 1e-3;

@@ -286,7 +286,7 @@ TEST_CASE("a canister that cannot share the tables is refused, and the others go
     std::string said;
     std::thread other([&] {
         RuledWorld world = canisterWorld();
-        world.surfaces.pop_back();
+        world.walls.pop_back();
         try {
             odd->load(world, thrownIn(20));
         } catch (const RunError& e) {
@@ -305,7 +305,7 @@ TEST_CASE("a canister that cannot share the tables is refused, and the others go
 TEST_CASE("canisters with surfaces of other kinds cannot share tables") {
     std::vector<std::unique_ptr<Backend>> backends = gpuEnsemble(2);
     RuledWorld odd = canisterWorld();
-    odd.surfaces.pop_back();
+    odd.walls.pop_back();
     std::vector<std::string> said(2);
     std::thread other([&] {
         try {

@@ -37,15 +37,15 @@ TEST_CASE("a particle that leaves the domain is named with its place and time") 
 
 TEST_CASE("a backend that could not load a world has no state to give, and loads another") {
     RuledWorld w = emptyWorld();
-    w.surfaces.assign(29, geometry::Plane{{0, -1, 0}, {0, 1, 0}});  // more than a device holds
+    w.walls.assign(29, geometry::Plane{{0, -1, 0}, {0, 1, 0}});  // more than a device holds
     Particles p;
     p.add({0, 0, 0}, 1e-3);
     auto device = gpu();
-    CHECK_THROWS_WITH(device->load(w, p), Contains("29 surfaces"));
+    CHECK_THROWS_WITH(device->load(w, p), Contains("29 walls"));
     CHECK_THROWS_AS(device->particles(), RunError);
     CHECK_THROWS_AS(device->contacts(), RunError);
     CHECK_THROWS_AS(device->advance(1, 0), RunError);
-    w.surfaces.resize(1);
+    w.walls.erase(w.walls.begin() + 1, w.walls.end());
     device->load(w, p);
     device->advance(1, 0);
     CHECK(device->particles().size() == 1);
@@ -154,7 +154,7 @@ TEST_CASE("more particles around one than the neighbour search may look at are r
 
 TEST_CASE("a dosed particle is counted once and its neighbours forget it", "[every-driver]") {
     RuledWorld w = canisterWorld();
-    w.surfaces.clear();
+    w.walls.clear();
     w.coil.reset();
     Particles p;
     p.add({0, 0, 0.0699}, 1e-3, {0, 0, 0.5});

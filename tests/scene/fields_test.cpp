@@ -95,7 +95,7 @@ TEST_CASE("fields: the device's are the reference's, of a packing on walls and c
 TEST_CASE("fields: on the device too each turn of the coil that a sphere touches has a branch of its own") {
     RuledWorld world = canisterWorld();
     world.energyBook = GENERATE(false, true);  // the history of a turn is longer with it
-    world.surfaces.clear();
+    world.walls.clear();
     world.gravity = Vec3(0);
     world.coil->pitch = 3.5e-3;  // spheres fit between two turns and lie in the groove
     const Particles p = aroundTheWire(*world.coil, single(0.9e-3));

@@ -46,7 +46,7 @@ const std::vector<Ceiling>& ceilings() {
     static const std::vector<Ceiling> all{
         {"a plane",
          [](RuledWorld& w) {
-             w.surfaces = {geometry::Plane{Vec3(0), Vec3(0, -1, 0)}};
+             w.walls = {geometry::Plane{Vec3(0), Vec3(0, -1, 0)}};
          }},
         {"a block", [](RuledWorld& w) { w.bodies = {bodyOf("block", {block})}; }},
         {"triangles", [](RuledWorld& w) { w.bodies = {bodyOf("mesh", {meshOf(block, 2.1e-3)})}; }}};
@@ -181,7 +181,7 @@ TEST_CASE("elastic adhesive spheres part from walls, bodies and each other on th
 
 TEST_CASE("the lists know of contacts beyond touch: many adhesive spheres that are shaken apart") {
     RuledWorld w = glueyWorld(0.3);
-    w.surfaces = {geometry::Plane{Vec3(0, -3.25e-3, 0), Vec3(0, 1, 0)}};
+    w.walls = {geometry::Plane{Vec3(0, -3.25e-3, 0), Vec3(0, 1, 0)}};
     Particles p;
     for (int n = 0; n < 27; ++n) {
         const Vec3 at = Vec3(n % 3 - 1, n / 9 - 1 + 0.2, n / 3 % 3 - 1) * (1.9992 * kSphere);

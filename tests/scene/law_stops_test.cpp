@@ -18,7 +18,7 @@ RuledWorld floorUnder(const std::string& law) {
     const LawReading reading = readLaw("odd.glsl", law);
     for (const LawFault& fault : reading.faults) FAIL_CHECK(fault.line << ": " << fault.problem);
     RuledWorld w = emptyWorld();
-    w.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
+    w.walls = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}};
     w.timeStep = 1e-5;
     w.law.user = std::make_shared<const UserLaw>(reading.law);
     for (ContactParameters& p : w.law.pairs) {

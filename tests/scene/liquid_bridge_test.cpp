@@ -87,6 +87,22 @@ TEST_CASE("the rupture of a bridge of liquid costs the work of its closed form")
     requireClean(*device);
 }
 
+TEST_CASE("a bridge of liquid ruptures in the reference where it does on the device") {
+    const Case c = bridgeCase();
+    auto device = gpu(), reference = makeReferenceBackend();
+    const Particles start = insertParticles(c).particles;
+    device->load(c.world, c.dosingLaw, start);
+    reference->load(c.world, c.dosingLaw, start);
+    for (int step = 0; step < 400; ++step) {
+        device->advance(21, 0);
+        reference->advance(21, 0);
+        CHECK(device->contacts().size() == reference->contacts().size());
+    }
+    CHECK(reference->contacts().empty());
+    CHECK(near(gapOf(device->particles()), gapOf(reference->particles()), kRadius, 1e-5));
+    requireClean(*device);
+}
+
 TEST_CASE("a bridge of liquid comes about at touch, not within its reach") {
     const Case c = bridgeCase();
     auto device = gpu();

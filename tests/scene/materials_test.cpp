@@ -29,9 +29,7 @@ Renumbered renumbered(const RuledWorld& w, const Particles& p, const std::array<
         for (int b = 0; b <= a; ++b)
             r.world.law.between(number[std::size_t(a)], number[std::size_t(b)]) = w.law.between(a, b);
     }
-    r.world.surfaceMaterials.clear();
-    for (std::size_t s = 0; s < w.surfaces.size(); ++s)
-        r.world.surfaceMaterials.push_back(std::uint8_t(number[std::size_t(w.materialOf(s))]));
+    for (Wall& wall : r.world.walls) wall.material = number[std::size_t(wall.material)];
     for (RigidBody& body : r.world.bodies) body.material = number[std::size_t(body.material)];
     for (std::uint8_t& m : r.particles.material) m = std::uint8_t(number[m]);
     return r;
@@ -81,10 +79,10 @@ std::set<std::size_t> pairsMet(const Backend& backend, const RuledWorld& w) {
         int other = 0;
         if (c.kind == ContactClass::ParticleParticle)
             other = p.material[c.other];
-        else if (c.other < w.surfaces.size())
-            other = w.materialOf(c.other);
+        else if (c.other < w.walls.size())
+            other = w.walls[c.other].material;
         else
-            other = allBodies(w)[c.other - w.surfaces.size()].material;
+            other = allBodies(w)[c.other - w.walls.size()].material;
         met.insert(PairTable::index({p.material[c.particle], other}));
     }
     return met;
@@ -206,10 +204,10 @@ TEST_CASE("materials: the ledger closes where a wall hands a contact to one of a
     const bool onDevice = GENERATE(false, true);
     RuledWorld w = emptyWorld();
     const double wide = 0.0115, a = single(1.25e-3);
-    w.surfaces = {geometry::Trough{wide, 0.06}, geometry::Front{0.06, wide, 0.01}};
+    w.walls = {geometry::Trough{wide, 0.06}, geometry::Front{0.06, wide, 0.01}};
     w.materials.push_back({"second", true, 2600});
     w.materials.push_back({"throat", false, 0});
-    w.surfaceMaterials = {kWallMaterial, 4};
+    w.walls.back().material = 4;
     w.law.pairs.resize(5);
     for (const int powder : {0, kSecond}) {
         w.law.between(powder, 1) = w.law.between(0, 1);

@@ -42,7 +42,7 @@ inline RuledWorld mixedWorld() {
     w.materials.push_back({"third", true, 1100});
     w.materials.push_back({"trough", false, 0});
     w.materials.push_back({"block", false, 0});
-    w.surfaceMaterials = {std::uint8_t(kTrough)};
+    w.walls.front().material = kTrough;
     RigidBody block;
     block.name = "block";
     block.shapes = {geometry::Block{{-0.004, -0.001, -0.02}, {0.004, 0.001, 0.02}}};

@@ -89,7 +89,7 @@ TEST_CASE("elastic spheres of Hertz and Mindlin collide off centre, and graze a 
     elastic.kr = elastic.kTo = 0.3;
     elastic.gammaR = elastic.gammaTo = 0.2;
     w.law.pairs.fill(elastic);
-    w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
+    w.walls = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
     Particles p;
     p.add({0.031, 0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});
     p.add({0.031 + 2.501e-3, 0.02, 0.045 + 1e-4}, single(0.625e-3), {-0.2, 0, 0.05}, {-80, 10, 40});
@@ -119,7 +119,7 @@ TEST_CASE("elasto-plastic adhesive spheres collide off centre, and graze a floor
             rest.adhesionExponent = a.exponent;
             w.law.pairs.fill(elastoPlasticAdhesive({2e6, 0.25}, {2e7, 0.3}, 0.7, rest));
             w.law.limitFriction(a.pull > 0 ? CoulombLimit::Luding : CoulombLimit::Absolute);
-            w.surfaces = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
+            w.walls = {geometry::Plane{{0, -2e-3, 0}, {0, 1, 0}}};
             Particles p;
             p.add({0.031, 0.02, 0.045}, single(1.875e-3), {0.2, 0.05, 0}, {30, 60, -20});
             p.add({0.031 + 2.501e-3, 0.02, 0.045 + 1e-4}, single(0.625e-3), {-0.2, 0, 0.05}, {-80, 10, 40});
@@ -173,13 +173,13 @@ TEST_CASE("a sphere meets every surface", "[every-driver]") {
     };
     for (const Shot& shot : shots) {
         DYNAMIC_SECTION(shot.name) {
-            w.surfaces = {shot.surface};
+            w.walls = {shot.surface};
             const Vec3 sideways = 0.1 * Vec3(shot.direction.y, shot.direction.z, shot.direction.x);
             requireClose(run(w, thrown(shot.target, shot.direction, a, sideways), 100));
         }
     }
     SECTION("not the end of a tube along x from a place on its axis") {
-        w.surfaces = {geometry::Tube{{0, 0, 0}, {1, 0, 0}, 0.01, 0.05, true}};
+        w.walls = {geometry::Tube{{0, 0, 0}, {1, 0, 0}, 0.01, 0.05, true}};
         Particles p;
         p.add({0.06, 0, 0}, a, Vec3(0));
         auto device = gpu();
@@ -188,8 +188,8 @@ TEST_CASE("a sphere meets every surface", "[every-driver]") {
         CHECK(device->contacts().empty());
     }
     SECTION("behind surfaces whose kind no constant holds") {
-        for (int i = 0; i < 9; ++i) w.surfaces.push_back(geometry::Plane{{0, -0.5, 0}, {0, 1, 0}});
-        w.surfaces.push_back(geometry::Trough{rho});
+        for (int i = 0; i < 9; ++i) w.walls.push_back(geometry::Plane{{0, -0.5, 0}, {0, 1, 0}});
+        w.walls.push_back(geometry::Trough{rho});
         requireClose(run(w, thrown({rho, 0.02, 0.02}, {1, 0, 0}, a, {0, 0.1, 0.2}), 100));
     }
 }
@@ -200,7 +200,7 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
     // Where a contact is pulled back on the adhesive branch, delta_max answers to the overlap with a slope of
     // (k2 + kc)/(k2 - k1), 40 at this depth: 1.2e-7 m or 2e-4 of a radius.
     RuledWorld w = canisterWorld();
-    w.surfaces.clear();
+    w.walls.clear();
     w.gravity = Vec3(0);
     std::size_t most = 0;
     for (const int hand : {1, -1}) {
@@ -232,7 +232,7 @@ TEST_CASE("spheres pressed against the coil wherever it is") {
 
 TEST_CASE("spheres against a coil whose surface they see at rest, or whose wire they see curved") {
     RuledWorld w = canisterWorld();
-    w.surfaces.clear();
+    w.walls.clear();
     w.gravity = Vec3(0);
     const Particles p = aroundTheWire(*w.coil, single(0.9e-3));
     auto usual = makeReferenceBackend(), other = makeReferenceBackend();
@@ -260,7 +260,7 @@ TEST_CASE("spheres against a coil whose surface they see at rest, or whose wire 
 TEST_CASE("the comparison of two backends sees what it is there to see") {
     Particles p = thrown({0.02, -0.01, 0.03}, {0, -1, 0}, single(1.25e-3), {0.1, 0, 0.05});
     RuledWorld w = emptyWorld();
-    w.surfaces = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
+    w.walls = {geometry::Plane{{0, -0.01, 0}, {0, 1, 0}}};
     const auto played = [](const RuledWorld& world, const Particles& particles) {
         auto backend = makeReferenceBackend();
         backend->load(world, particles);
@@ -275,7 +275,7 @@ TEST_CASE("the comparison of two backends sees what it is there to see") {
     other.law.of(ContactClass::ParticleWall).muR *= 1.01;
     CHECK(differences(*played(other, p), *sound, kSpeed).spin > 2e-5);
     other = w;
-    other.surfaces.clear();
+    other.walls.clear();
     CHECK(differences(*played(other, p), *sound, kSpeed).unmatched == 1);
     CHECK(differences(*played(w, p), *sound, std::nan("")).velocity == INFINITY);
 }

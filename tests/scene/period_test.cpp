@@ -39,7 +39,7 @@ RuledWorld slice() {
     RuledWorld w = emptyWorld();
     w.domain = {Vec3(-0.02, -0.01, 0), Vec3(0.02, 0.1, kLength)};
     repeatAlong(w, 2);
-    w.surfaces = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Plane{{-8e-3, 0, 0}, {1, 0, 0}}};
+    w.walls = {geometry::Plane{{0, 0, 0}, {0, 1, 0}}, geometry::Plane{{-8e-3, 0, 0}, {1, 0, 0}}};
     w.bodies.push_back(bodyOf("wall", {geometry::Plane{{8e-3, 0, 0}, {-1, 0, 0}}}));
     w.bodies.push_back(bodyOf("rib", {stripThrough({{-1.5e-3, 0.2e-3}, {0, 1.5e-3}, {1.5e-3, 0.2e-3}})}));
     w.gravity = Vec3(0, -9.81, 4);

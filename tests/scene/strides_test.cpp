@@ -25,7 +25,7 @@ Scene shearFlow(NormalLaw law = NormalLaw::Luding) {
     const Vec3 z(0, 0, 1);
     w.domain = {Vec3(-0.02, -0.02, -0.01), Vec3(0.02, 0.02, 0.02)};
     w.maxOverlapRatio = 1;
-    w.surfaces = {geometry::Plane{{0, 0, 0}, {0, 0, 1}}, geometry::Plane{{0, 0, 10e-3}, {0, 0, -1}}};
+    w.walls = {geometry::Plane{{0, 0, 0}, {0, 0, 1}}, geometry::Plane{{0, 0, 10e-3}, {0, 0, -1}}};
     w.bodies.push_back(
         bodyOf("drum", {geometry::Cone{Vec3(0), z, 14e-3, 14e-3, 10e-3}}, geometry::Turn{z, Vec3(0), 40}));
     w.bodies.push_back(
@@ -84,8 +84,8 @@ Scene farOff() {
     w.timeStep = 1e-8;
     w.skin = 5e-6;
     const double a = single(50e-6);
-    w.surfaces = {geometry::Plane{Vec3(0.9 - 3e-4), {0, 1, 0}}, geometry::Plane{Vec3(0.9 - 3e-4), {1, 0, 0}},
-                  geometry::Plane{Vec3(0.9 - 3e-4), {0, 0, 1}}};
+    w.walls = {geometry::Plane{Vec3(0.9 - 3e-4), {0, 1, 0}}, geometry::Plane{Vec3(0.9 - 3e-4), {1, 0, 0}},
+               geometry::Plane{Vec3(0.9 - 3e-4), {0, 0, 1}}};
     for (ContactParameters& c : w.law.pairs) {
         c.k1 /= 5;
         c.k2Max /= 5;

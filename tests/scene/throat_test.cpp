@@ -17,10 +17,10 @@ constexpr double kThroat = 0.01;    // its length
 const double kA = single(1.25e-3);  // radius of the sphere
 constexpr double kDegree = kPi / 180;
 
-RuledWorld wallsOnly(std::vector<geometry::Surface> surfaces) {
+RuledWorld wallsOnly(std::vector<Wall> walls) {
     RuledWorld w = emptyWorld();
     w.gravity = Vec3(0);
-    w.surfaces = std::move(surfaces);
+    w.walls = std::move(walls);
     return w;
 }
 

@@ -57,6 +57,24 @@ TEST_CASE("each class of contacts has the parameters of a user's law, or those o
     CHECK(of(ContactClass::ParticleWall, 1) == 0.01);
 }
 
+TEST_CASE("what single precision takes from a law's answers is found") {
+    const auto shareOf = [](const Case& c) { return c.lawRounding ? c.lawRounding->share : 0.0; };
+    const Folder folder;
+    CHECK(shareOf(loaded(folder)) < 1e-6);
+    CHECK(shareOf(loadCase(VKDOSE_SOURCE_DIR "/cases/laws/liquid-bridge.toml")) < 1e-5);
+    // The difference of two squares that are almost the same.
+    const Folder another;
+    const std::string lost =
+        with(kSpring, "k * c.overlap",
+             "k * (pow(100.0 * c.radius + c.overlap, 2.0) - pow(100.0 * c.radius, 2.0)) / (200.0 * c.radius)");
+    write(another.path() / "spring.glsl", lost);
+    write(another.path() / "two.csv", "x,y,z,r\n0,0,0,1e-3\n2.1e-3,0,0,1e-3\n");
+    write(another.path() / "case.toml", kCase);
+    const Case c = loadCase(another.path() / "case.toml");
+    CHECK(shareOf(c) > 1e-2);
+    CHECK(c.lawRounding->function == "force");
+}
+
 TEST_CASE("the text of a law is read again from the resolved case, however many dots it has") {
     const Folder folder;
     std::string many = kSpring;

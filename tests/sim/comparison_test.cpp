@@ -52,7 +52,7 @@ Case fallingSpheres() {
     c.world.timeStep = 1e-5;
     c.world.skin = 2e-4;
     c.world.domain = {Vec3(-1), Vec3(1)};
-    c.world.surfaces.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
+    c.world.walls.push_back(geometry::Plane{Vec3(0), Vec3(0, 1, 0)});
     for (ContactParameters& p : c.dosingLaw.pairs) {
         p.k1 = 400;
         p.k2Max = 2000;

@@ -72,7 +72,7 @@ class FakeBackend : public Backend {
         s.count = {static_cast<std::uint64_t>(there) - dosed(step), 0, dosed(step), 0};
         for (std::size_t r = 0; r < kRegions; ++r) s.mass[r] = particleMass * static_cast<double>(s.count[r]);
         s.coilTorque = impulse / steps;
-        s.bodies.resize(bodyNames(world_).size());
+        s.bodies.resize(loadNames(world_).size());
         s.maxOverlapRatio = static_cast<double>(step % 100) / 1000;
         spoil(step, s);
         return s;

@@ -21,9 +21,12 @@ TEST_CASE("a sweep does not write into a folder that holds something else, or th
     for (const char* name : {"study.toml", "base.toml"}) std::ofstream(sweep.out / name) << "my own";
     CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
     CHECK(readText(sweep.out / "study.toml") == "my own");
-    // Even with members and the very base of the study: what a sweep leaves at its end is the user's own as long as no
-    // table tells that a sweep was there.
+    // Even with members and the very base of the study: another study, and what a sweep leaves at its end, are the
+    // user's own as long as no table tells that a sweep was there.
     std::ofstream(sweep.out / "base.toml") << loadCase(sweep.place.study().base).resolved;
+    CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
+    CHECK(readText(sweep.out / "study.toml") == "my own");
+    std::ofstream(sweep.out / "study.toml") << sweep.place.study().text;
     std::ofstream(sweep.out / "design-2.toml") << "my own";
     CHECK_THROWS_WITH(sweep.run(runs), Catch::Contains("something else than a sweep"));
     CHECK(readText(sweep.out / "design-2.toml") == "my own");

@@ -88,8 +88,8 @@ inline RuledWorld emptyWorld() {
 /// The paper's canister, narrow coil.
 inline RuledWorld canisterWorld() {
     RuledWorld w = emptyWorld();
-    w.surfaces = {geometry::Trough{0.0115, 0.06}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
-                  geometry::Front{0.06, 0.0115, 0.01}};
+    w.walls = {geometry::Trough{0.0115, 0.06}, geometry::Plane{{0, 0, 0}, {0, 0, 1}},
+               geometry::Front{0.06, 0.0115, 0.01}};
     w.coil = geometry::Coil{0.0104, 0.00875, 0.001, 0.07};
     w.domain = {{-0.02, -0.02, -0.01}, {0.02, 1.0, 0.08}};
     w.throatZ = 0.06;

@@ -168,6 +168,14 @@ std::vector<Mutant> mutants() {
          1,
          {"eepa/path", "eepa/restitution"},
          "eepa/ledger"},
+        {"a parameter of a user's law 2 % up",
+         [](RuledWorld& w) {
+             if (w.law.user)
+                 for (ContactParameters& p : w.law.pairs) p.own[1] *= 1.02;
+         },
+         1,
+         {"user-law/memory", "user-law/reach"},
+         "hertz/"},
         {"sliding springs that grow",
          asItIs,
          1,
@@ -279,7 +287,9 @@ std::vector<Mutant> mutants() {
          {"materials/hertz", "materials/luding", "materials/sliding"},
          "head-on"},
         {"one floor as another",
-         [](RuledWorld& w) { w.surfaceMaterials.clear(); },
+         [](RuledWorld& w) {
+             for (Wall& wall : w.walls) wall.material = kWallMaterial;
+         },
          1,
          {"materials/sliding"},
          "materials/cluster"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/backend/reference/normal.h"
 #include "host/backend/reference/rolling.h"
@@ -52,20 +53,52 @@ Vec3 contactVelocity(const Body& i, const Vec3& leverI, const Body& j, const Vec
     return (i.velocity + glm::cross(i.spin, leverI)) - (j.velocity + glm::cross(j.spin, leverJ));
 }
 
-Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history) {
+namespace {
+
+/// What the law says along the normal, and what that does to the springs of the other directions.
+struct Normal {
+    NormalAnswer answer;
+    double kept;        ///< share of their length
+    double stored = 0;  ///< as a user's law says [J]
+};
+
+/// Of a user's law. Answers that its trial would have refused make the force no number, which ends the run.
+Normal userNormal(const ContactParameters& p, const Touch& touch, double speed, History& history, LawProgram& user) {
+    const LawAnswer a = user.answer(p.own, {touch.overlap, speed, touch.reduced / 2, touch.mass}, history.own);
+    constexpr double kFactor = 1000;  // the trial asked at some points only
+    const double most = p.kMost > 0 ? kFactor * p.kMost : std::numeric_limits<double>::max();
+    const auto isSize = [](double x) { return x >= 0 && std::isfinite(x); };
+    const bool sound = a.stiffness > 0 && a.stiffness <= most && isSize(a.damping) && isSize(a.pull);
+    const double before = history.stiffness;
+    history.stiffness = a.stiffness;
+    history.maxOverlap = std::max(touch.overlap, 1e-9 * touch.reduced);  // above 0: the contact goes on
+    return {{sound ? a.force : std::numeric_limits<double>::quiet_NaN(), a.damping, a.pull, a.stiffness * p.kt,
+             a.stiffness * p.kr, a.stiffness * p.kTo, a.damping * p.gammaT, a.damping * p.gammaR, a.damping * p.gammaTo,
+             true},
+            before > 0 ? std::min(1.0, before / a.stiffness) : 1.0,
+            a.energy};
+}
+
+Normal normalOf(const ContactParameters& p, const Touch& touch, double speed, History& history, LawProgram* user) {
+    if (user != nullptr) return userNormal(p, touch, speed, history, *user);
+    const double kept =
+        history.maxOverlap > 0 ? springsKept(p, touch.reduced, touch.mass, history.overlap, touch.overlap) : 1.0;
+    return {normalAnswer(p, touch.overlap, touch.reduced, touch.mass, history.maxOverlap), kept};
+}
+
+}  // namespace
+
+Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history,
+                         LawProgram* user) {
     const ContactParameters& p = law.of(pair);
     const Vec3& n = touch.normal;
 
-    if (history.maxOverlap > 0) {
-        const double kept = springsKept(p, touch.reduced, touch.mass, history.overlap, touch.overlap);
-        history.sliding *= kept;
-        history.rolling *= kept;
-        history.torsion *= kept;
-    }
-    history.overlap = touch.overlap;
-
     const double normalVelocity = glm::dot(touch.velocity, n);
-    const NormalAnswer answer = normalAnswer(p, touch.overlap, touch.reduced, touch.mass, history.maxOverlap);
+    const auto [answer, kept, stored] = normalOf(p, touch, -touch.share * normalVelocity, history, user);
+    history.overlap = touch.overlap;
+    history.sliding *= kept;
+    history.rolling *= kept;
+    history.torsion *= kept;
     // The overlap grows by `share` of the way along the normal; the same share of the force takes as much work.
     const double damping = -answer.gamma * touch.share * normalVelocity;
     const double normal = touch.share * (answer.force + damping);
@@ -103,6 +136,7 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
                       .twists = twists,
                       .law = p.law,
                       .arriving = workOfFirstTouch(p, touch.overlap, touch.reduced, answer.force),
+                      .stored = stored,
                       .kt = answer.kt,
                       .kr = answer.kr,
                       .kTo = answer.kTo,

@@ -5,6 +5,7 @@
 
 #include "geometry/motion.h"
 #include "host/core/vec.h"
+#include "host/model/law_program.h"
 #include "host/model/material.h"
 
 namespace vkdose::reference {
@@ -25,6 +26,9 @@ struct History {
     Vec3 rolling{0};        ///< rho [m]
     double torsion = 0;     ///< [m]
     double overlap = 0;     ///< in the last step [m]
+    // Of a user's law:
+    LawProgram::Memory own{};
+    double stiffness = 0;  ///< in the last step; 0: the contact is new [N/m]
 };
 
 /// Kinematics of a contact; `i` is the particle (the smaller index of a pair), `j` the other one or the wall.
@@ -63,6 +67,7 @@ struct Parts {
     bool slides, rolls, twists;  ///< whether the slider slips
     NormalLaw law;               ///< of the normal force
     double arriving;             ///< work that pressing a new contact so far takes [J]
+    double stored;               ///< what a user's law says that the contact would give back [J]
     double kt, kr, kTo;          ///< stiffness of sliding, rolling, torsion [N/m]
     double share;                ///< of the touch
 };
@@ -78,7 +83,8 @@ struct Response {
 };
 
 /// The law of a contact of these two materials. `dt` [s] is the time by which the springs advance; `history` is
-/// updated.
-Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history);
+/// updated. `user` is the program of `law.user`, null if there is none.
+Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history,
+                         LawProgram* user = nullptr);
 
 }  // namespace vkdose::reference

@@ -39,6 +39,7 @@ double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
     const NormalLaw law = (now.touching ? now : before).parts.law;
     if (!losesEnergy(law)) return 0;
     const double stored = now.elastic.normal - before.elastic.normal;
+    if (law == NormalLaw::User) return taken - stored;  // nobody else can say
     if (losesAtTouchAlone(law) && before.touching) return 0;
     if (!before.touching) return now.parts.arriving - stored;
     if (!now.touching) return partsOnStoredPath(law) ? 0 : -before.parts.hysteretic * before.overlap / 2 - stored;
@@ -49,8 +50,10 @@ double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
 
 Elastic elasticEnergy(const ContactParameters& p, const Parts& parts, double overlap, double reduced,
                       const History& history) {
-    return {storedEnergy(p, overlap, reduced, parts.hysteretic, history.maxOverlap),
-            parts.kt * glm::dot(history.sliding, history.sliding) / 2,
+    const double normal = parts.law == NormalLaw::User
+                              ? parts.stored
+                              : storedEnergy(p, overlap, reduced, parts.hysteretic, history.maxOverlap);
+    return {normal, parts.kt * glm::dot(history.sliding, history.sliding) / 2,
             parts.kr * glm::dot(history.rolling, history.rolling) / 2,
             parts.kTo * history.torsion * history.torsion / 2};
 }

@@ -12,19 +12,26 @@ namespace vkdose::reference {
 
 namespace {
 
-/// How far beyond touch the contact may be: only one that has come about holds on.
-double reachOf(const ContactParameters& p, double reduced, bool continues) {
-    return continues ? vkdose::reachOf(p, reduced) : 0;
-}
-
 /// A fixed wall, as a body.
 const Body kFixed{Vec3(0), Vec3(0), Vec3(0), 0};
 
 }  // namespace
 
+void Forces::follow(const ContactLaw& law) {
+    user_.reset();
+    if (law.user) user_.emplace(*law.user);
+}
+
+/// How far beyond touch the contact may be: only one that has come about holds on.
+double Forces::reachOf(const ContactParameters& p, double reduced, bool continues) {
+    if (!continues) return 0;
+    const double most = vkdose::reachOf(p, reduced);
+    return user_ ? std::min(user_->reach(p.own, reduced / 2), most) : most;
+}
+
 void Forces::reset(std::size_t particles, const World& world) {
     bodies_ = allBodies(world);
-    walls_ = world.surfaces.size();
+    walls_ = world.walls.size();
     pairs_.assign(particles, {});
     surfaces_.assign(particles, {});
     onBodies_.assign(particles, {});
@@ -40,7 +47,7 @@ void Forces::evaluate(const RuledWorld& world, const Particles& particles, const
     loads_ = &loads;
     loads.force.assign(particles.size(), Vec3(0));
     loads.torque.assign(particles.size(), Vec3(0));
-    loads.bodies.assign(bodies_.size(), {});
+    loads.bodies.assign(bodies_.size() + (world.wallLoads ? walls_ : 0), {});
     loads.deepest = {};
     loads.energy = {};
     loads.branches.clear();
@@ -134,7 +141,7 @@ void Forces::pairs(std::size_t i) {
         const Known before = continues ? *known++ : Known{j, {}, {}};
         History history = before.history;
 
-        const Response response = contactResponse(world_->law, pair, *touch, springDt_, history);
+        const Response response = contactResponse(world_->law, pair, *touch, springDt_, history, user());
         loads_->force[i] += response.force;
         loads_->force[j] -= response.force;
         loads_->torque[i] += response.torqueI;
@@ -152,7 +159,7 @@ void Forces::pairs(std::size_t i) {
 /// The caller books the force, because it knows that of the last step.
 Forces::Pushed Forces::wall(std::size_t i, int material, std::uint32_t other, const Touch& touch, History& history) {
     const MaterialPair pair{materialOf(i), material};
-    const Response response = contactResponse(world_->law, pair, touch, springDt_, history);
+    const Response response = contactResponse(world_->law, pair, touch, springDt_, history, user());
     loads_->force[i] += response.force;
     loads_->torque[i] += response.torqueI;
     const Vec3 toWall = (particles_->radius[i] - touch.overlap) * touch.normal;
@@ -170,13 +177,14 @@ Forces::Pushed Forces::wall(std::size_t i, int material, std::uint32_t other, co
 void Forces::meetSurfaces(std::size_t i) {
     met_.clear();
     auto known = before_.cbegin();
-    for (std::uint32_t s = 0; s < world_->surfaces.size(); ++s) {
+    for (std::uint32_t s = 0; s < world_->walls.size(); ++s) {
         const bool continues = known != before_.cend() && known->other == s;
         Met met{continues, continues ? *known++ : Known{s, {}, {}}};
         if (particles_->status[i] == Status::Active) {
-            met.closest = geometry::closestPoint(world_->surfaces[s], particles_->position[i]);
+            const Wall& wall = world_->walls[s];
+            met.closest = geometry::closestPoint(wall.shape, particles_->position[i]);
             const double radius = particles_->radius[i];
-            met.reach = reachOf(world_->law.between(materialOf(i), world_->materialOf(s)), 2 * radius, continues);
+            met.reach = reachOf(world_->law.between(materialOf(i), wall.material), 2 * radius, continues);
             met.touches = radius - met.closest.distance > -met.reach;
         }
         met_.push_back(met);
@@ -187,12 +195,12 @@ void Forces::meetSurfaces(std::size_t i) {
 /// contact. Only the deeper one counts. It takes over the history of the other one unless it has its own.
 void Forces::joinAtFront(std::size_t i) {
     const auto isFront = [&](const Met& m) {
-        return std::holds_alternative<geometry::Front>(world_->surfaces[m.known.other]);
+        return std::holds_alternative<geometry::Front>(world_->walls[m.known.other].shape);
     };
     const auto front = std::find_if(met_.begin(), met_.end(), isFront);
     if (front == met_.end()) return;
     for (Met& wall : met_) {
-        if (!wall.touches || !front->touches || !geometry::endsAtFront(world_->surfaces[wall.known.other])) continue;
+        if (!wall.touches || !front->touches || !geometry::endsAtFront(world_->walls[wall.known.other].shape)) continue;
         const geometry::Joint joint = geometry::jointContact(wall.closest, front->closest, particles_->radius[i]);
         if (joint == geometry::Joint::Apart) continue;
         Met& counts = joint == geometry::Joint::Wall ? wall : *front;
@@ -220,10 +228,20 @@ void Forces::surfaces(std::size_t i) {
             continue;
         }
         History history = met.known.history;
-        const Exerted now = wall(i, world_->materialOf(met.known.other), met.known.other, *touch, history).exerted;
-        book(met.known.exerted, now, body(i), kFixed);
-        surfaces_[i].push_back({met.known.other, history, now});
+        const std::uint32_t which = met.known.other;
+        const Pushed pushed = wall(i, world_->walls[which].material, which, *touch, history);
+        if (world_->wallLoads) loadWall(which, pushed);
+        book(met.known.exerted, pushed.exerted, body(i), kFixed);
+        surfaces_[i].push_back({which, history, pushed.exerted});
     }
+}
+
+/// As a body bears what is exerted on it.
+void Forces::loadWall(std::uint32_t which, const Pushed& pushed) {
+    BodyLoad& load = loads_->bodies[bodies_.size() + which];
+    const Vec3& force = pushed.exerted.force;
+    load.force -= force;
+    load.torque -= glm::dot(kWallAxis, glm::cross(pushed.point, force) + pushed.couple);
 }
 
 std::vector<Contact> Forces::contacts() const {

@@ -2,6 +2,7 @@
 // The sum of all contact forces, and the histories that the contacts carry from step to step.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct Deepest {
 struct Loads {
     std::vector<Vec3> force;       ///< without gravity [N]
     std::vector<Vec3> torque;      ///< about the particle's centre [N m]
-    std::vector<BodyLoad> bodies;  ///< of allBodies; `work` in this step
+    std::vector<BodyLoad> bodies;  ///< of all that tell loads (loadNames); `work` in this step
     EnergyBook energy;             ///< energies that contacts book and store in this step; if the world asks for it
     Deepest deepest;
     std::vector<Branch> branches;  ///< of every contact
@@ -42,6 +43,8 @@ struct Drive {
 
 class Forces {
   public:
+    /// Makes the program of a user's law. Throws LawRefused where it is not in the language.
+    void follow(const ContactLaw& law);
     /// Forgets every contact. `world` is the one that is evaluated from now on.
     void reset(std::size_t particles, const World& world);
 
@@ -100,12 +103,15 @@ class Forces {
     void bodies(std::size_t i);
     void touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> before);
     void loadBody(std::uint32_t b, const Pushed& pushed);
+    void loadWall(std::uint32_t which, const Pushed& pushed);
     void bookBody(std::size_t i, std::uint32_t b, const Exerted& before, const Exerted& now);
     Pushed wall(std::size_t i, int material, std::uint32_t other, const Touch& touch, History& history);
     Exerted exertedBy(MaterialPair pair, const Touch& touch, const Response& response, const History& history) const;
     void book(const Exerted& before, const Exerted& now, const Body& i, const Body& j);
     void partPair(std::size_t i, const Known& known);
     void partWall(std::size_t i, const Exerted& before);
+    double reachOf(const ContactParameters& p, double reduced, bool continues);
+    LawProgram* user() { return user_ ? &*user_ : nullptr; }
     Body body(std::size_t i) const;
     Body imageNear(std::size_t i, std::size_t j) const;
     int materialOf(std::size_t i) const { return particles_->material[i]; }
@@ -114,7 +120,8 @@ class Forces {
     std::vector<std::vector<Known>> pairs_, surfaces_;  ///< per particle, ascending in `other`
     std::vector<std::vector<OnBody>> onBodies_;         ///< per particle, ascending in `body`
     std::vector<RigidBody> bodies_;                     ///< allBodies
-    std::size_t walls_ = 0;                             ///< fixed surfaces
+    std::size_t walls_ = 0;                             ///< how many there are
+    std::optional<LawProgram> user_;                    ///< the user's law, if the contacts follow one
     std::vector<OnBody> beforeOnBodies_;                ///< scratch: those of one particle at the last step
     std::vector<Placed> placed_;                        ///< scratch: the bodies
     std::vector<Known> before_;                         ///< scratch: a row as it was at the last step

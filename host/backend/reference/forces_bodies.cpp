@@ -57,7 +57,7 @@ void Forces::touchBody(std::size_t i, std::uint32_t b, std::span<const OnBody> b
     const Placed& placed = placed_[b];
     const double radius = particles_->radius[i];
     const double reduced = body.curvature > 0 ? reducedSize(radius, body.curvature) : 2 * radius;
-    const double reach = before.empty() ? 0 : reachOf(world_->law.between(materialOf(i), body.material), reduced);
+    const double reach = reachOf(world_->law.between(materialOf(i), body.material), reduced, !before.empty());
     std::vector<geometry::Feature> found;
     if (particles_->status[i] == Status::Active) try {
             found = geometry::touched(body.shapes, placed.pose.toBody(particles_->position[i]), radius, reach);

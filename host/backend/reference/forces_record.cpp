@@ -19,6 +19,8 @@ void eachNumber(History& h, Visit visit) {
     for (int d = 0; d < 3; ++d) visit(h.rolling[d]);
     visit(h.torsion);
     visit(h.overlap);
+    for (double& x : h.own) visit(x);
+    visit(h.stiffness);
 }
 
 template <class Visit>

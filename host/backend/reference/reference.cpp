@@ -10,6 +10,8 @@
 #include "host/backend/reference/free_motion.h"
 #include "host/backend/reference/neighbours.h"
 #include "host/core/error.h"
+#include "host/core/fnv.h"
+#include "host/model/law_checks.h"
 #include "host/model/normal_law.h"
 
 namespace vkdose {
@@ -36,9 +38,12 @@ bool inside(const World& world, const Vec3& x) {
 std::string nameOf(const Deepest& deepest, const World& world) {
     if (deepest.kind == ContactClass::ParticleParticle)
         return fmt::format("particles {} and {}", deepest.particle, deepest.other);
-    if (deepest.other < world.surfaces.size())
-        return fmt::format("particle {} and surface {}", deepest.particle, deepest.other);
-    const std::size_t body = deepest.other - world.surfaces.size();
+    if (deepest.other < world.walls.size()) {
+        const std::string& name = world.walls[deepest.other].name;
+        return fmt::format("particle {} and wall {}", deepest.particle,
+                           name.empty() ? fmt::format("{}", deepest.other) : fmt::format("\"{}\"", name));
+    }
+    const std::size_t body = deepest.other - world.walls.size();
     if (body == world.bodies.size()) return fmt::format("particle {} and the coil", deepest.particle);
     return fmt::format("particle {} and body \"{}\"", deepest.particle, world.bodies[body].name);
 }
@@ -46,11 +51,12 @@ std::string nameOf(const Deepest& deepest, const World& world) {
 class ReferenceBackend final : public Backend {
   public:
     void load(const World& world, const ContactLaw& law, const Particles& particles) override {
-        if (law.user)
-            throw RunError(
-                fmt::format("contact.law = \"{}\" is written in the language of devices, and the backend "
-                            "reference cannot run it: use --backend vulkan",
-                            law.user->name));
+        try {
+            forces_.follow(law);
+        } catch (const LawRefused& refused) {
+            throw RunError(fmt::format("{}:{}: {}: {}", law.user->file, refused.fault.line, refused.fault.problem,
+                                       refused.fault.remedy));
+        }
         checkMaterials(world, law, particles);
         world_ = {world, law};
         particles_ = particles;
@@ -153,12 +159,17 @@ Record ReferenceBackend::snapshot() const {
     record.putOne("rebuilds", neighbours_.builds());
     record.put("list_anchor", flat(neighbours_.anchors()));
     if (moveFreely(world_.bodies)) reference::saveFreeBodies(free_, record);
+    if (world_.law.user) record.putOne("user_law", fnv1a(world_.law.user->text));
     forces_.save(record);
     return record;
 }
 
 void ReferenceBackend::restore(const Record& record) {
     const std::size_t n = particles_.size();
+    const auto& law = world_.law.user;
+    const auto before = record.arrays().contains("user_law") ? record.one<std::uint64_t>("user_law") : 0;
+    if (before != (law ? fnv1a(law->text) : 0))
+        throw RecordError(fmt::format("it was made under another law than {}", law ? law->name : "that of the case"));
     const auto vectors = [&](const char* name, std::vector<Vec3>& to) {
         const auto& values = record.get<double>(name, 3 * to.size());
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
@@ -198,7 +209,7 @@ void ReferenceBackend::addParticles(std::size_t first, const std::vector<Vec3>& 
 
 Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
     double deepest = 0;
-    std::vector<BodyLoad> bodies(allBodies(world_).size());
+    std::vector<BodyLoad> bodies(loadNames(world_).size());
     const double start = angle_;
     book_ = {};
     for (std::uint32_t n = 0; n < steps; ++n) {
@@ -212,7 +223,7 @@ Sensors ReferenceBackend::advance(std::uint32_t steps, double coilRate) {
         deepest = std::max(deepest, loads_.deepest.ratio);
     }
     Sensors sensors = sense();
-    if (world_.coil) sensors.coilTorque = bodies.back().torque;  // the last of allBodies
+    if (world_.coil) sensors.coilTorque = bodies[world_.bodies.size()].torque;  // the last of allBodies
     sensors.bodies = std::move(bodies);
     sensors.maxOverlapRatio = deepest;
     if (world_.energyBook && steps_ > 0) sensors.energy = senseEnergy();
@@ -282,7 +293,10 @@ void ReferenceBackend::settleStatus(std::size_t i) {
             lost_ = fmt::format(
                 "particle {} {} in {}, at ({:.6g}, {:.6g}, {:.6g}) m: {}", i,
                 broken ? "is no longer finite" : "left the domain", when(), x.x, x.y, x.z,
-                broken ? "use a smaller time step"
+                broken ? world_.law.user
+                             ? fmt::format("let the law {} answer finite numbers, or use a smaller time step",
+                                           world_.law.user->name)
+                             : "use a smaller time step"
                        : "close the boundaries around it (canister.lid = true if it flew out at the top), give the "
                          "domain more room there (domain.low, domain.high) or use a smaller time step");
     }

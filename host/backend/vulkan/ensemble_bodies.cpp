@@ -190,11 +190,16 @@ void Ensemble::writeMotions(std::uint32_t count, const std::vector<double>& coil
 
 std::vector<vk::Buffer::Part> Ensemble::loadRows(std::uint32_t member) const {
     const MemberState& m = members_[member];
+    const TableSizes& sizes = passes_->sizes;
     std::vector<vk::Buffer::Part> rows;
-    for (std::uint32_t row = 0; row < gpu::kBodyLoads * m.bodies.size(); ++row) {
-        const std::uint64_t at = passes_->at.bodyLoadIndex(row, std::uint64_t(member) * passes_->sizes.share);
-        rows.push_back({at * sizeof(float), m.loaded.size() * sizeof(float)});
-    }
+    const auto add = [&](std::size_t first, std::size_t count) {
+        for (std::size_t row = gpu::kBodyLoads * first; row < gpu::kBodyLoads * (first + count); ++row) {
+            const std::uint64_t at = passes_->at.bodyLoadIndex(row, std::uint64_t(member) * sizes.share);
+            rows.push_back({at * sizeof(float), m.loaded.size() * sizeof(float)});
+        }
+    };
+    add(0, m.bodies.size());
+    if (m.world.wallLoads) add(sizes.bodies, m.world.walls.size());
     return rows;
 }
 
@@ -215,14 +220,16 @@ std::vector<std::vector<BodyLoad>> Ensemble::takeLoads(const std::vector<Look>& 
         const MemberState& m = members_[look.member];
         const double share = look.steps > 0 ? 1.0 / look.steps : 0.0;
         std::vector<BodyLoad>& loads = all.emplace_back();
-        for (const RigidBody& body : m.bodies) {
+        const auto take = [&](const Vec3& axis) {
             std::array<double, gpu::kBodyLoads> sums{};
             for (double& sum : sums)
                 for (std::size_t i = 0; i < m.loaded.size(); ++i) sum += double(*value++);
             const Vec3 force = -share * Vec3(sums[0], sums[1], sums[2]),
                        moment = -share * Vec3(sums[3], sums[4], sums[5]);
-            loads.push_back({force, glm::dot(body.axis(), moment), sums[6]});
-        }
+            loads.push_back({force, glm::dot(axis, moment), sums[6]});
+        };
+        for (const RigidBody& body : m.bodies) take(body.axis());
+        for (std::size_t w = 0; m.world.wallLoads && w < m.world.walls.size(); ++w) take(kWallAxis);
     }
     return all;
 }

@@ -117,9 +117,10 @@ std::vector<Sensors> Ensemble::sense(const std::vector<Look>& looks) {
         s.bodies = std::move(loads[n]);
         if (booked(m)) s.energy = energyOf(own);
         if (m.world.coil) {  // the last of allBodies
-            s.coilTorque = s.bodies.back().torque;
+            const BodyLoad& coil = s.bodies.at(m.bodies.size() - 1);
+            s.coilTorque = coil.torque;
             if (s.energy) {
-                s.energy->coilWork = s.bodies.back().work;
+                s.energy->coilWork = coil.work;
                 s.energy->bodyWork -= s.energy->coilWork;
             }
         }
@@ -164,7 +165,7 @@ std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {
             c.history[1], c.force);
     for (const PlaceContact& c : touchingPlaces(*passes_, member)) {
         const MemberState& m = members_[member];
-        add(classAtWall(m.bodies.at(c.body).material), c.particle, std::uint32_t(m.world.surfaces.size() + c.body),
+        add(classAtWall(m.bodies.at(c.body).material), c.particle, std::uint32_t(m.world.walls.size() + c.body),
             c.history[0], c.history[1], c.force);
     }
     std::stable_sort(contacts.begin(), contacts.end(),

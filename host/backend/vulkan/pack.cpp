@@ -130,18 +130,19 @@ void packGravity(const World& world, gpu::Member& m) {
 }
 
 gpu::Member packMember(const World& world, const ContactLaw& law, const Particles& particles) {
-    if (world.surfaces.size() > gpu::kMaxSurfaces)
-        throw RunError(fmt::format("{} surfaces; the Vulkan backend holds {}", world.surfaces.size(),
-                                   uint32_t(gpu::kMaxSurfaces)));
+    if (world.walls.size() > gpu::kMaxSurfaces)
+        throw RunError(
+            fmt::format("{} walls; the Vulkan backend holds {}", world.walls.size(), uint32_t(gpu::kMaxSurfaces)));
     checkMaterials(world, law, particles);
     gpu::Member m{};
     packLaw(law, m);
     m.choices.y = 1.0f;
-    for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
-        if (std::holds_alternative<geometry::Front>(world.surfaces[i]) && i + 1 < world.surfaces.size())
-            throw std::logic_error("the front wall must be the last surface");
-        m.surface[i] = std::visit(PackSurface{}, world.surfaces[i]);
-        m.surface[i].radius.z = float(world.materialOf(i));
+    for (std::size_t i = 0; i < world.walls.size(); ++i) {
+        const Wall& wall = world.walls[i];
+        if (std::holds_alternative<geometry::Front>(wall.shape) && i + 1 < world.walls.size())
+            throw std::logic_error("the front wall must be the last one");
+        m.surface[i] = std::visit(PackSurface{}, wall.shape);
+        m.surface[i].radius.z = float(wall.material);
     }
     const double largest = largestRadius(particles), reach = longestReach(world, law, largest);
     const auto finite = [](double x) { return float(std::clamp(x, -1e30, 1e30)); };

@@ -177,9 +177,9 @@ std::vector<const char*> Passes::names() {
     return names;
 }
 
-std::array<std::uint32_t, 15> Passes::constants(const TableSizes& s) {
-    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet, s.members,   s.mostGroups, s.front,  s.bodies,
-            s.shapeKinds, s.laws,     s.mostPlaces,   s.powders, s.manyWalls, s.outlets,    s.periods};
+std::array<std::uint32_t, 16> Passes::constants(const TableSizes& s) {
+    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet, s.members,   s.mostGroups, s.front,   s.bodies,
+            s.shapeKinds, s.laws,     s.mostPlaces,   s.powders, s.manyWalls, s.outlets,    s.periods, s.wallLoads};
 }
 
 namespace {
@@ -215,7 +215,7 @@ void Passes::reset(std::uint32_t member) {
           [&](std::uint64_t row, std::uint64_t i) { return row * sizes.particles() + i; });
     anchors.clear({{at.speedLowIndex(first, 0) * sizeof(gpu::vec4), 2ULL * sizes.share * sizeof(gpu::vec4)}});
     // What is summed since the last sensing.
-    clear(bodyLoads, std::uint64_t(gpu::kBodyLoads) * sizes.bodies, sizeof(float),
+    clear(bodyLoads, std::uint64_t(gpu::kBodyLoads) * sizes.loaded(), sizeof(float),
           [&](std::uint64_t row, std::uint64_t i) { return at.bodyLoadIndex(row, i); });
     clear(books, sizes.energyBook ? gpu::kBookFields : 0, sizeof(gpu::vec4),
           [&](std::uint64_t row, std::uint64_t i) { return at.bookIndex(row, i); });

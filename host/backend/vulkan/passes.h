@@ -119,7 +119,7 @@ class Passes : public Tables {
     /// The push constants of every dispatch, for the roster's first row.
     gpu::StepPush push(std::uint32_t stepInStride, bool opening) const;
     /// Specialisation constants of every pass over tables of this size.
-    static std::array<std::uint32_t, 15> constants(const TableSizes& sizes);
+    static std::array<std::uint32_t, 16> constants(const TableSizes& sizes);
 
     /// The passes of a stride, in their order.
     static std::vector<const char*> names();

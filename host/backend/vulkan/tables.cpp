@@ -39,11 +39,11 @@ std::uint64_t meanRow(const World& world, const Crowd& crowd, double reach) {
     return std::uint64_t(std::clamp(mean, 12.0, double(gpu::kMaxRow)));
 }
 
-/// Whether a surface or body is of another material than walls and coil.
+/// Whether a wall or body is of another material than the usual ones of walls and coil.
 bool hasManyWalls(const World& world) {
-    for (std::size_t s = 0; s < world.surfaces.size(); ++s)
-        if (world.materialOf(s) != kWallMaterial) return true;
-    return std::any_of(world.bodies.begin(), world.bodies.end(),
+    return std::any_of(world.walls.begin(), world.walls.end(),
+                       [](const Wall& w) { return w.material != kWallMaterial; }) ||
+           std::any_of(world.bodies.begin(), world.bodies.end(),
                        [](const RigidBody& b) { return b.material != kWallMaterial && b.material != kCoilMaterial; });
 }
 
@@ -71,6 +71,7 @@ void TableSizes::growTo(const TableSizes& other) {
     laws |= other.laws;
     powders = std::max(powders, other.powders);
     manyWalls = std::max(manyWalls, other.manyWalls);
+    wallLoads = std::max(wallLoads, other.wallLoads);
     outlets = std::max(outlets, other.outlets);
     periods = std::max(periods, other.periods);
 }
@@ -80,7 +81,8 @@ bool TableSizes::holds(const TableSizes& other) const {
     both.growTo(other);
     const auto grown = [](const TableSizes& s) {
         return std::tuple(s.share, s.cells, s.rowEntries, s.linkEntries, s.pairSlots, s.surfaceSlots, s.bodySlots,
-                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls, s.outlets, s.periods);
+                          s.bodies, s.shapeKinds, s.mostPlaces, s.laws, s.powders, s.manyWalls, s.wallLoads, s.outlets,
+                          s.periods);
     };
     return shares(other) && grown(both) == grown(*this);
 }
@@ -99,6 +101,7 @@ TableCounts::TableCounts(const TableSizes& s)
       bodySlots(canisters * s.bodySlots),
       bodies(s.bodies),
       bodied(s.bodies > 0 ? 1 : 0),
+      loaded(s.loaded()),
       bodyHistory(s.bodyHistory()) {}
 
 namespace {
@@ -177,7 +180,8 @@ TableSizes tableSizes(const World& world, const Crowd& crowd, const gpu::Member&
     s.share = narrow(roundUp(n, workgroup * s.layers(narrow((n + workgroup - 1) / workgroup))));  // every layer full
     s.cells = 64;
     while (s.cells < 2 * n) s.cells *= 2;
-    s.surfaces = std::uint32_t(world.surfaces.size());
+    s.surfaces = std::uint32_t(world.walls.size());
+    s.wallLoads = world.wallLoads ? 1U : 0U;
     for (std::uint32_t i = 0; i < s.surfaces; ++i) {
         const auto kind = std::uint32_t(member.surface[i].pointHigh.w);
         s.kindSet |= 1U << kind;

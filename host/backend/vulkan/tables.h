@@ -28,7 +28,8 @@ struct TableSizes {
     std::shared_ptr<const UserLaw> userLaw;  ///< of all members; null: they follow the program's own
     std::uint32_t laws = 0;                  ///< bit k: contacts of some pair follow the law k (NormalLaw)
     std::uint32_t powders = 1;               ///< 1: all particles are of the first powder
-    std::uint32_t manyWalls = 0;             ///< 1: a surface or body is of another material than walls and coil
+    std::uint32_t manyWalls = 0;             ///< 1: a wall or body is of another material than the usual ones
+    std::uint32_t wallLoads = 0;             ///< 1: the loads on the walls of a member are summed
     std::uint32_t outlets = 0;               ///< most regions of a member that delete
     std::uint32_t periods = 0;               ///< 1: a direction of a member repeats
     std::uint32_t shapeKinds = 0;            ///< bit k: a body has a shape of kind k (shaders/shared/geometry.h)
@@ -50,6 +51,8 @@ struct TableSizes {
     /// Whether each member has as much room as in `other`, and passes made for these sizes know all that it has.
     bool holds(const TableSizes& other) const;
 
+    /// Whose loads are summed: the bodies, and behind the most of them the surfaces if one member wants those.
+    std::uint32_t loaded() const { return bodies + wallLoads * surfaces; }
     std::uint32_t groups() const { return share / workgroup; }
     /// As `spread` in shaders/shared/buffers.glsl.
     std::uint32_t layers(std::uint32_t groups) const { return std::max(1U, (groups + mostGroups - 1) / mostGroups); }
@@ -89,7 +92,7 @@ struct TableShape {
 /// 64 bits, because the tables are counted before it is known whether 32 bits are enough to number their elements.
 struct TableCounts {
     std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, slots, historyParts,
-        energyBook, bodySlots, bodies, bodied, bodyHistory;
+        energyBook, bodySlots, bodies, bodied, loaded, bodyHistory;
 
     explicit TableCounts(const TableSizes& sizes);
     std::array<TableShape, gpu::kTables> shapes() const;  ///< in the order of the bindings
