@@ -167,9 +167,10 @@ Found emptyThroat(const Subject& s) {
     if (!(turns > 0) || turns * pitch >= 0.5 * throat) return {};
     return Finding{
         "canister.throat_length_mm",
-        fmt::format("the throat is empty at first, and a dose of {:.2g} turns pushes the powder by {:.3g} mm; "
+        fmt::format("the throat is empty at first, and a dose of {:.2g} turn{} pushes the powder by {:.3g} mm; "
                     "the first {:.0f} doses fill the throat and give little",
-                    turns, mm(turns * pitch), std::ceil(throat / (turns * pitch)) - 1),
+                    turns, fmt::format("{:.2g}", turns) == "1" ? "" : "s", mm(turns * pitch),
+                    std::ceil(throat / (turns * pitch)) - 1),
         fmt::format("leave these doses out of the mean, turn at least {:.2g} s, or give a shorter throat",
                     s.c.schedule.rotateTime * throat / (turns * pitch))};
 }

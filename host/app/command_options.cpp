@@ -146,6 +146,7 @@ CLI::App& addPowders(CLI::App& program, PowdersOptions& options) {
                         ->check(CLI::Range(2, 1000))
                         ->needs(name)
                         ->excludes(like);
+    command.add_flag("--json", options.json, "print the list as JSON")->excludes(name)->excludes(like);
     for (CLI::Option* option : addMemberOptions(command, options.ofConfirm)) option->needs(confirm);
     addBackend(command, options.backend);
     return command;

@@ -151,6 +151,7 @@ struct PowdersOptions {
     std::filesystem::path name;     ///< of a powder; empty: all are listed
     std::vector<std::string> like;  ///< "repose=48": figures of a powder that is to be found
     std::filesystem::path out;      ///< of it as a powder file; empty: none is written
+    bool json = false;              ///< the list for other programs
     int confirm = 0;                ///< draws with which the element tests are run; 0: none are
     MemberOptions ofConfirm;
     BackendChoice backend;

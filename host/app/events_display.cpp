@@ -56,7 +56,7 @@ void EventsDisplay::onSample(const Sample& sample) {
         orders_->look(sample);
         hearOrders();
     }
-    Json event{{"event", "sample"}};
+    Json event{{"event", "sample"}, {"step", sample.step}};
     putColumns(kSampleColumns, sample, event);
     if (sample.energy) putColumns(kEnergyColumns, *sample.energy, event);
     if (case_.world.repeats()) putColumns(kThroughColumns, sample.sensors, event);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "host/app/calibration_text.h"
 #include "host/app/commands.h"
@@ -18,6 +19,8 @@
 namespace vkdose {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// "23.4 +- 0.3 degrees"
 std::string valueText(double value, const std::optional<double>& error, const std::string& unit = "") {
@@ -43,6 +46,20 @@ std::string listText(const std::vector<PowderFile>& powders) {
         text += fmt::format("{:<{}}  {:<{}}  {}; {}{}\n", p.file.stem().string(), name, printable(p.title), title,
                             counted(p.laboratory.size(), "published figure"), heldText(p), p.draws ? "; draws" : "");
     return text + "next     vkdose powders NAME, or vkdose run CASE --powder NAME\n";
+}
+
+Json listJson(const std::vector<PowderFile>& powders) {
+    Json list = Json::array();
+    for (const PowderFile& p : powders) {
+        const auto fitted = std::count_if(p.held.begin(), p.held.end(), [](const auto& h) { return h.fitted; });
+        list.push_back({{"name", p.file.stem().string()},
+                        {"title", printable(p.title)},
+                        {"published", p.laboratory.size()},
+                        {"fitted", fitted},
+                        {"predicted", std::ptrdiff_t(p.held.size()) - fitted},
+                        {"draws", p.draws.has_value()}});
+    }
+    return list;
 }
 
 std::string powderText(const PowderFile& p) {
@@ -74,6 +91,10 @@ int powdersCommand(const PowdersOptions& options) {
     }
     std::vector<PowderFile> powders;
     for (const std::filesystem::path& file : powderFiles()) powders.push_back(readPowderFile(file));
+    if (options.json) {
+        tell("{}\n", listJson(powders).dump());
+        return kOk;
+    }
     tell("{}", powders.empty() ? "no powders: there is no folder cases/powders here\n" : listText(powders));
     return kOk;
 }

@@ -164,7 +164,7 @@ function chart(parent, spec) {
   let [low, high] = [d3.min(tall, p => p[1] - error(p)), d3.max(tall, p => p[1] + error(p))];
   if (level) [low, high] = [Math.min(low, level.value), Math.max(high, level.value)];
   if (spec.y.zero !== false) [low, high] = [Math.min(0, low), Math.max(0, high)];
-  if (low === high) [low, high] = [low - 1, high + 1];
+  if (low === high) [low, high] = [low === 0 ? 0 : low - 1, high + 1];
   if (isNumber(spec.y.from)) low = spec.y.from;
   if (isNumber(spec.y.to)) high = spec.y.to;
   if (isNumber(spec.x.from)) extent[0] = spec.x.from;

@@ -24,6 +24,12 @@ const overDoses = run => run.player && {
   },
 };
 
+/// What the closed form says of each dose and of those before it together [kg]; an order to the drive changes a dose.
+function closedSums(doses) {
+  let sum = 0;
+  return doses.closed_form_mass_kg.map(m => (sum += m > 0 ? m : 0));
+}
+
 function doseCharts(parent, run) {
   const d = run.doses, e = run.experiment;
   const complete = d.dose.map((n, i) => i).filter(i => d.complete[i] === 1);
@@ -37,11 +43,11 @@ function doseCharts(parent, run) {
   // The line of the closed form spans each dose, so that it shows with a single one too.
   const spanned = (points, at) => points.length === 0 ? [] : [[points[0][0] - 0.5, at(points[0], -0.5)]].concat(points,
     [[points[points.length - 1][0] + 0.5, at(points[points.length - 1], 0.5)]]);
-  const ideal = closed.map(i => [d.dose[i], Math.min(run.filled_mass_kg, d.closed_form_mass_kg[i] * d.dose[i]) * gram]);
+  const sums = closedSums(d), ideal = closed.map(i => [d.dose[i], Math.min(run.filled_mass_kg, sums[i]) * gram, d.closed_form_mass_kg[i] * gram]);
   chart(parent, {
     title: "Cumulative dosed mass", link: overDoses(run), x: whole, y: {label: "g"},
     level: {value: run.beta_below_kg * gram, name: `β is taken below ${short(run.beta_below_kg * gram)} g`},
-    series: [Object.assign({points: at(d.cumulative_mass_kg)}, measured), Object.assign({points: spanned(ideal, ([n, m], half) => Math.min(run.filled_mass_kg * gram, m * (n + half) / n))}, predicted)]
+    series: [Object.assign({points: at(d.cumulative_mass_kg)}, measured), Object.assign({points: spanned(ideal, ([, sum, each], half) => Math.min(run.filled_mass_kg * gram, sum + half * each)).map(p => p.slice(0, 2))}, predicted)]
       .concat(e ? [Object.assign({points: zip(e.dose, e.cumulative_mass_kg, gram)}, balance)] : []),
   });
   chart(parent, {

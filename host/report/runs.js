@@ -56,8 +56,8 @@ function comparedDoses(parent, page) {
     chart(parent, {title, x: whole, y: {label: "g"}, series: lines.concat(dashed)});
   };
   overDoses("Cumulative dosed mass", "cumulative_mass_kg", (run, list) => list.filter(i => run.doses.closed_form_mass_kg[i] > 0)
-    .flatMap(i => { const m = run.doses.closed_form_mass_kg[i], n = run.doses.dose[i];
-                    return [[n - 0.5, m * (n - 0.5)], [n + 0.5, m * (n + 0.5)]].map(([x, y]) => [x, Math.min(run.filled_mass_kg, y) * gram]); }));
+    .flatMap(i => [-0.5, 0.5].map(half => [run.doses.dose[i] + half,
+                                           Math.min(run.filled_mass_kg, closedSums(run.doses)[i] + half * run.doses.closed_form_mass_kg[i]) * gram])));
   overDoses("Mass per dose", "mass_kg", (run, list) => list.filter(i => run.doses.closed_form_mass_kg[i] > 0)
     .flatMap(i => [-0.5, 0.5].map(half => [run.doses.dose[i] + half, run.doses.closed_form_mass_kg[i] * gram])));
 }

@@ -44,6 +44,7 @@ void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& s
     get("/api/folder", [&](const Request&) { return bench.folder(); });
     get("/api/case", [&](const Request& r) { return bench.read(r.get_param_value("name")); });
     get("/api/keys", [&](const Request& r) { return bench.keys(r.has_param("study")); });
+    get("/api/powders", [&](const Request&) { return bench.powders(); });
     get("/api/running", [&](const Request&) { return bench.running(); });
     get("/api/history", [&](const Request& r) { return bench.history(r.get_param_value("run")); });
     get("/api/members", [&](const Request& r) { return bench.members(r.get_param_value("run")); });

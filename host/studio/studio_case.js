@@ -170,6 +170,7 @@ async function openCase(name) {
   at("text").value = text;
   at("case-name").textContent = name;
   at("case").hidden = false;
+  at("start").hidden = true;
   showSteps();
   say("");
   mark();
@@ -191,7 +192,7 @@ async function make(event) {
   let name = at("new-name").value.trim();
   if (!name.endsWith(".toml")) name += ".toml";
   const answers = {};
-  document.querySelectorAll("#new-canister input, #new-canister select").forEach(field => {
+  document.querySelectorAll("#new-canister input:enabled, #new-canister select:enabled").forEach(field => {
     if (field.value.trim()) answers[field.name] = field.value.trim();
   });
   await ask("/api/new", Object.assign(answers, {name, like: at("new-like").value, of: open.name || ""}));
@@ -202,10 +203,23 @@ async function make(event) {
 
 const kStudies = ["sweep", "calibrate", "design"];
 
+/// The figures of a powder are asked for unless it is one that is known.
+function askFigures() {
+  at("new-figures").hidden = at("new-figures").disabled = at("new-powder").value !== "";
+}
+
+async function listPowders() {
+  const box = at("new-powder");
+  if (box.options.length > 1) return;
+  const known = await ask("/api/powders");
+  if (box.options.length === 1) known.forEach(p => { add(box, "option", p.title).value = p.name; });
+}
+
 /// What is asked of a new case besides its name.
 function showNew() {
   const like = at("new-like").value, study = kStudies.includes(like);
   at("new-canister").hidden = at("new-canister").disabled = like !== "canister";
+  if (like === "canister") tried(listPowders)();
   at("new-of").hidden = !study;
   at("new-of").textContent = !study ? "" : open.name && at("plan").hidden ? `of ${open.name}` : "open the case first that it is to vary";
 }
@@ -219,6 +233,7 @@ function beginCase() {
   at("allow").addEventListener("click", tried(() => ask("/api/allow", {text: at("law-text").textContent}).then(check)));
   at("new").addEventListener("submit", tried(make));
   at("new-like").addEventListener("change", showNew);
+  at("new-powder").addEventListener("change", askFigures);
   document.addEventListener("keydown", event => {
     if (!(event.ctrlKey || event.metaKey) || !open.name) return;
     const key = event.key.toLowerCase();

@@ -54,6 +54,7 @@ async function begin() {
   const wanted = decodeURIComponent(location.hash.replace(/^#name=/, ""));
   const all = found.cases.concat(found.studies);
   const first = all.includes(wanted) ? wanted : all[0];
+  at("start").hidden = Boolean(first);
   if (first) await openCase(first);
   const running = await ask("/api/running");
   if (running.length > 0) await watch(running[running.length - 1]);

@@ -38,14 +38,19 @@ function tablesOf(schema, path, title, tables) {
 
 const statedText = key => (form.stated.find(s => s.key === key) || {}).text;
 
-const plain = text => (text || "").replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replace(/`/g, "");
+const unlinked = text => (text || "").replace(/\[([^\]]*)\]\([^)]*\)/g, "$1");
+
+/// A text in which words of a case stand between backticks.
+function addWords(box, text) {
+  text.split("`").forEach((part, i) => part && (i % 2 === 1 ? add(box, "code", part) : box.appendChild(document.createTextNode(part))));
+}
 
 /// The kinds of value that a key may have, and the words among them.
 function kindsOf(schema) {
   const all = (schema.anyOf || [schema]), words = [];
   all.forEach(s => words.push(...(s.enum || []), ...(s.const !== undefined ? [s.const] : [])));
   const types = new Set(all.map(s => s.type || (s.enum || s.const !== undefined ? "string" : "any")));
-  return {words, types, description: plain(all[0].description || schema.description), default: all[0].default, from: all[0].minimum ?? all[0].exclusiveMinimum, to: all[0].maximum};
+  return {words, types, description: unlinked(all[0].description || schema.description), default: all[0].default, from: all[0].minimum ?? all[0].exclusiveMinimum, to: all[0].maximum};
 }
 
 /// What is typed into a field as TOML; null takes the key out.
@@ -105,7 +110,8 @@ function rowFor(box, key) {
   const field = fieldFor(row, key, kinds, shown);
   label.htmlFor = field.id;
   const bounds = [kinds.from !== undefined ? `from ${kinds.from}` : "", kinds.to !== undefined ? `to ${kinds.to}` : ""].filter(b => b).join(" ");
-  const meaning = add(row, "small", [kinds.description, bounds, fault ? `${fault.text}. ${fault.cure || ""}` : ""].filter(t => t).join(" · "));
+  const meaning = add(row, "small");
+  addWords(meaning, [kinds.description, bounds, fault ? `${fault.text}. ${fault.cure || ""}` : ""].filter(t => t).join(" · "));
   meaning.id = `${field.id}-meaning`;
 }
 

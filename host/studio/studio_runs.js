@@ -52,6 +52,7 @@ function take(event) {
   if (event.event === "run") {
     live.filled = event.filled_kg;
     showRefills(event.refills);
+    tried(list)();  // the run has its folder now
   }
   if (event.event === "refill") refillButtons().filter(b => b.value === event.name).forEach(b => { b.disabled = true; });
   if (event.event === "phase") {
@@ -118,7 +119,7 @@ async function watch(run) {
   ["order-state", "refills"].forEach(id => { at(id).textContent = ""; });
   ["charts", "told"].forEach(id => { at(id).textContent = ""; });
   at("charts").hidden = live.study;
-  at("told").hidden = at("members").hidden = !live.study;
+  ["told", "members"].forEach(id => { at(id).hidden = true; });
   at("python").hidden = true;
   at("progress").value = 0;
   buttons(true);
@@ -131,10 +132,16 @@ async function watch(run) {
   else tried(livePicture)(run);
 }
 
+/// What a command said of its end, without how far it was before.
+function lastWords(error) {
+  const lines = error.split("\n").filter(l => l), own = lines.filter(l => l.startsWith("vkdose"));
+  return (own.length > 0 ? own : lines.slice(-1)).map(l => l.replace(/^vkdose[^:]*: /, "")).join("; ");
+}
+
 function over(run, end) {
   live.source.close();
   live.source = null;
-  const reason = live.end ? live.end.stop_sentence : end.known ? end.error : "It does not run now.";
+  const reason = live.end ? live.end.stop_sentence : end.known ? lastWords(end.error) : "It does not run now.";
   at("live-state").textContent = reason || (end.code === 0 ? "done" : `ended with ${end.code}`);
   if (!live.study) drawRun();
   if (end.known && end.code === 0) at("progress").value = 1;

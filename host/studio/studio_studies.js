@@ -24,6 +24,7 @@ const kLines = 500;  // of what a study tells, kept
 function tellLine(text) {
   live.lines.push(text);
   live.lines.splice(0, live.lines.length - kLines);
+  at("told").hidden = false;
   at("told").textContent = live.lines.join("\n");
   at("told").scrollTop = at("told").scrollHeight;
   at("live-state").textContent = text;
@@ -62,6 +63,25 @@ function memberChart({columns, keys, rows}) {
   drawings.forEach(again => again());
 }
 
+/// How many runs the study has at most; a search ends sooner if it can.
+function mostRuns() {
+  const plan = at("plan-text").textContent, most = plan.match(/at most (\d+) members/);
+  return most ? Number(most[1]) : plan.split("\n").filter(l => l.startsWith("member")).length;
+}
+
+/// Before a member has ended there is nothing to show, and nothing by which to tell how long it takes.
+function tellMembers(of) {
+  at("members").hidden = of === 0;
+  if (!live.source) return;
+  const most = mostRuns(), now = Date.now();
+  if (most > 0) at("progress").value = Math.min(1, of / most);
+  if (of === 0 && live.lines.length === 0) at("live-state").textContent = "no run of the study has ended yet";
+  if (!live.first) live.first = {of, now};
+  const made = of - live.first.of, rest = most - of;
+  if (made > 0 && rest > 0)
+    at("live-state").textContent = `${of} of at most ${most} runs have ended, at most about ${timeText(rest * (now - live.first.now) / made / 1000)} left`;
+}
+
 async function showMembers(study) {
   live.table = await ask(`/api/members?${ofRun(study)}`);
   if (live.run !== study) return;
@@ -82,8 +102,7 @@ async function showMembers(study) {
       return go;
     });
   });
-  const planned = at("plan-text").textContent.split("\n").filter(l => l.startsWith("member")).length;
-  if (live.source && planned > 0) at("progress").value = Math.min(1, of / planned);
+  tellMembers(of);
   document.documentElement.dataset.members = String(of);
 }
 

@@ -34,6 +34,8 @@ class Workbench {
     Json make(const Json& body) const;
     /// The keys of cases or of studies.
     Json keys(bool ofStudies);
+    /// The powders that are known, as `vkdose powders --json` tells them.
+    Json powders() const { return asked({"powders", "--json"}, std::chrono::milliseconds(20000)); }
     Json check(const std::string& name, const std::string& text) const;
     static Json edit(const Json& body);
     Json save(const Json& body) const;
@@ -67,6 +69,7 @@ class Workbench {
     /// The law that nobody has allowed yet; nothing if there is none.
     std::optional<OwnLaw> lawToAskFor(const std::filesystem::path& file) const;
     void requireAllowed(const std::filesystem::path& file) const;
+    void requireKnown(const std::string& powder) const;
 
     struct Said {
         std::string text;  ///< on its standard output

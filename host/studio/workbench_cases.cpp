@@ -26,7 +26,8 @@ constexpr milliseconds kCheckLimit{20000}, kNewLimit{120000};
 // What `vkdose new` has ready, and what it asks of a canister with a coil.
 constexpr const char* kDevices[] = {"screw", "twin-screw", "tray", "wheel", "dosator"};
 constexpr const char* kStudies[] = {"sweep", "calibrate", "design"};
-constexpr const char* kAnswers[] = {"canister", "coil", "fill", "bulk-density", "sizes", "flow", "speed", "dose"};
+constexpr const char* kAnswers[] = {"canister", "coil", "fill",  "powder", "bulk-density",
+                                    "sizes",    "flow", "speed", "dose"};
 
 /// The keys that a text states, with their lines; none of a text that is not TOML, which the errors tell.
 Json statedJson(const std::string& text) {
@@ -93,6 +94,14 @@ Json Workbench::read(const std::string& name) const {
     return {{"name", name}, {"text", *text}};
 }
 
+/// A powder's name could lead to a file anywhere.
+void Workbench::requireKnown(const std::string& powder) const {
+    const Json known = powders();
+    const auto isIt = [&](const Json& one) { return one.value("name", "") == powder; };
+    if (std::none_of(known.begin(), known.end(), isIt))
+        throw Refused(400, fmt::format("there is no powder {}", printable(powder)));
+}
+
 Json Workbench::make(const Json& body) const {
     const std::string name = textOf(body, "name"), like = textOf(body, "like");
     const fs::path file = caseOf(name);
@@ -100,6 +109,7 @@ Json Workbench::make(const Json& body) const {
     const auto isLike = [&](const char* one) { return like == one; };
     std::vector<std::string> words{"new", file.string()};
     if (like == "canister") {
+        if (body.contains("powder")) requireKnown(textOf(body, "powder"));
         for (const char* answer : kAnswers)
             if (body.contains(answer)) words.push_back(fmt::format("--{}={}", answer, textOf(body, answer)));
     } else if (std::any_of(std::begin(kStudies), std::end(kStudies), isLike)) {

@@ -140,7 +140,7 @@ void Workbench::events(const httplib::Request& request, httplib::Response& respo
             if (over)
                 text += fmt::format(
                     "event: over\ndata: {}\n\n",
-                    Json{{"known", state.known}, {"code", state.code}, {"error", printable(state.error)}}.dump(
+                    Json{{"known", state.known}, {"code", state.code}, {"error", printableLines(state.error)}}.dump(
                         -1, ' ', false, Json::error_handler_t::replace));
             if (text.empty()) text = ":\n\n";  // a page that is gone is noticed by this
             const bool heard = sink.write(text.data(), text.size());

@@ -56,6 +56,7 @@ TEST_CASE("every rule is shown by a slip") {
     shown.insert("body-phases");
     shown.insert("body-seam");
     shown.insert("body-mended");
+    shown.insert("law-rounding");
     for (const std::string& name : warningNames()) all.insert(name);
     CHECK(all.size() == warningNames().size());
     CHECK(shown == all);
@@ -154,4 +155,22 @@ TEST_CASE("a list of touching spheres is a bed, which need not fall") {
 TEST_CASE("the manual has a row for every warning") {
     const std::string page = test::readText(std::filesystem::path(VKDOSE_SOURCE_DIR) / "host/app/README.md");
     for (const std::string& name : warningNames()) CHECK_THAT(page, Catch::Contains("`" + name + "`"));
+}
+
+TEST_CASE("a law of which single precision takes digits is told, with both answers") {
+    Case c = loadCase(plainCase());
+    UserLaw law;
+    law.name = "steep.glsl";
+    c.dosingLaw.user = std::make_shared<const UserLaw>(law);
+    c.lawRounding = {"force", "particle-wall", 1e-6, 0.0125, 0.0123, 0.016};
+    const auto told = [&] {
+        std::string line;
+        for (const Warning& w : warningsOf(c, insertParticles(c)))
+            if (w.name == "law-rounding") line = w.line();
+        return line;
+    };
+    CHECK_THAT(told(), Catch::Contains("force of steep.glsl answers 0.0125 in single precision and 0.0123 exactly") &&
+                           Catch::Contains("particle-wall"));
+    c.lawRounding->share = 1e-4;
+    CHECK(told().empty());
 }

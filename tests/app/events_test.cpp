@@ -65,6 +65,9 @@ TEST_CASE("the events of a run are its warnings, phases, samples and doses, and 
     for (std::size_t i = 0; i < doses.size(); ++i)
         for (const auto& [column, value] : summary["doses"][i].items()) CHECK(doses[i][column] == value);
     CHECK(samples.back()["time_s"] == summary["simulated_time_s"]);
+    const Json lastPhase = eventsIn(o.out, "phase").back();  // by which a reader tells how much is left
+    CHECK(samples.back()["step"] > lastPhase["step"]);
+    CHECK(samples.back()["step"] <= lastPhase["expected_steps"]);
 }
 
 TEST_CASE("a run whose events nobody reads any longer is interrupted, and resumes to the same bytes") {

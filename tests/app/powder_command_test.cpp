@@ -42,6 +42,13 @@ TEST_CASE("every powder that comes with the program is read, makes a case, and s
     const auto files = powderFiles({std::filesystem::path(VKDOSE_SOURCE_DIR) / "cases"});
     REQUIRE(!files.empty());
     const auto list = box.vkdose("powders");
+    const auto json = nlohmann::json::parse(box.vkdose("powders --json").out);
+    CHECK(json.size() >= 4);
+    for (const auto& p : json) {
+        CHECK_THAT(list.out,
+                   Catch::Contains(p["name"].get<std::string>()) && Catch::Contains(p["title"].get<std::string>()));
+        CHECK(p["published"].get<int>() > 0);
+    }
     REQUIRE(list.code == 0);
     for (const auto& file : files) {
         CAPTURE(file);

@@ -80,6 +80,29 @@ TEST_CASE("a browser draws the line of the closed form for a single dose too") {
     }
 }
 
+TEST_CASE("a browser draws the closed form's cumulative mass as a sum, though the drive was ordered about in a dose") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    const auto folder = writeRun(box, "why");
+    box.write("run/doses.csv", dosesTable("1,0.1,0.0015,0.0015,9,0.002,0.0004,1\n2,0.3,0.0015,0.003,9,0.002,0.0012,1\n"
+                                          "3,0.5,0.0015,0.0045,9,0.002,0.0004,1\n"));
+    const std::string dom = drawn(box, runJson(folder, {}));
+    const std::size_t at = dom.find("<h3>Cumulative dosed mass");
+    REQUIRE(at != std::string::npos);
+    const std::string figure = dom.substr(at, dom.find("</figure>", at) - at);
+    std::smatch path;
+    REQUIRE(std::regex_search(figure, path, std::regex("<path d=\"M([^\"]*)\" stroke-dasharray=\"6 4\"")));
+    std::vector<double> heights;  // downwards
+    const std::string points = path[1];
+    const std::regex point("([-0-9.e]+),([-0-9.e]+)");
+    for (std::sregex_iterator p(points.begin(), points.end(), point), end; p != end; ++p)
+        heights.push_back(std::stod((*p)[2]));
+    REQUIRE(heights.size() == 5);
+    CHECK(std::is_sorted(heights.rbegin(), heights.rend()));
+    // Doses 2 and 3 are 1.2 g and 0.4 g.
+    CHECK(std::abs((heights[1] - heights[2]) / (heights[2] - heights[3]) - 3) < 0.02);
+}
+
 TEST_CASE("a browser runs the page's own scripts and styles, and none that got into it") {
     if (browserMissing()) return;
     const Sandbox box;

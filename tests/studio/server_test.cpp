@@ -128,6 +128,14 @@ TEST_CASE("the workbench makes what vkdose new makes, in its folder and under a 
     bench.asked("/api/new",
                 {{"name", "tin.toml"}, {"like", "canister"}, {"canister", "16x14x40mm"}, {"coil", "3x6mm"}});
     CHECK_THAT(fileContent(work / "tin.toml").value(), Catch::Contains("length_mm = 16"));
+    bench.asked("/api/new", {{"name", "millet.toml"},
+                             {"like", "canister"},
+                             {"canister", "16x14x40mm"},
+                             {"coil", "3x6mm"},
+                             {"powder", "millet"}});
+    CHECK_THAT(fileContent(work / "millet.toml").value(), Catch::Contains("millet"));
+    const Json powders = Json::parse(bench.get("/api/powders")->body);
+    CHECK(std::any_of(powders.begin(), powders.end(), [](const Json& p) { return p["name"] == "millet"; }));
     bench.asked("/api/new", {{"name", "study.toml"}, {"like", "sweep"}, {"of", "sub/dosator.toml"}});
     CHECK_THAT(fileContent(work / "study.toml").value(), Catch::Contains("base = \"sub/dosator.toml\""));
 
@@ -137,6 +145,8 @@ TEST_CASE("the workbench makes what vkdose new makes, in its folder and under a 
     };
     for (const char* like : {"mini", "dosator", "canister"}) refused({{"name", "tin.toml"}, {"like", like}}, 409);
     refused({{"name", "a.toml"}, {"like", "canister"}, {"canister", "16mm --mesh=/etc/passwd"}}, 409);
+    for (const char* powder : {"../outside.toml", "sand", ""})
+        refused({{"name", "a.toml"}, {"like", "canister"}, {"canister", "16x14x40mm"}, {"powder", powder}}, 400);
     refused({{"name", "a.toml"}, {"like", "--help"}}, 400);
     refused({{"name", "a.toml"}, {"like", "design"}, {"of", "../outside.toml"}}, 403);
     refused({{"name", "../a.toml"}, {"like", "tray"}}, 403);
