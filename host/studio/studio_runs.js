@@ -150,6 +150,10 @@ function over(run, end) {
   tried(list)();
   if (live.study) tried(showMembers)(run);
   else tried(livePicture)(run);
+  // A study that was changed cannot go on in the folder of the former one.
+  if (end.known && end.code !== 0 && /has changed since .* was begun/.test(end.error) && run.startsWith("out/") && open.name &&
+      window.confirm(`${open.name} was changed since ${run} was begun. Run it into a folder beside that?`))
+    tried(start)({beside: true});
 }
 
 function buttons(running) {
@@ -159,17 +163,19 @@ function buttons(running) {
   at("orders").hidden = !running || live.study;
 }
 
-async function start(force) {
+/// `how`: {force} replaces a former run, {beside} takes a folder that is free.
+async function start(how) {
+  const {force = false, beside = false} = how || {};
   if (at("text").value !== open.saved) await save();
   try {
-    const {run} = await ask("/api/run", {name: open.name, force: force === true});
+    const {run} = await ask("/api/run", {name: open.name, force, beside});
     say("");
     if (at("plan").hidden === false) live.studies.add(run);
     await watch(run);
     at("live").scrollIntoView({block: "nearest"});
   } catch (error) {
-    if (error.status !== 409 || force === true || !window.confirm(`${error.message}. Replace it?`)) throw error;
-    await start(true);
+    if (error.status !== 409 || force || !window.confirm(`${error.message}. Replace it?`)) throw error;
+    await start({force: true});
   }
 }
 

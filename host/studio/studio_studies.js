@@ -70,23 +70,23 @@ function mostRuns() {
 }
 
 /// Before a member has ended there is nothing to show, and nothing by which to tell how long it takes.
-function tellMembers(of) {
-  at("members").hidden = of === 0;
+function tellMembers(ended) {
+  at("members").hidden = live.table.rows.length === 0;
   if (!live.source) return;
   const most = mostRuns(), now = Date.now();
-  if (most > 0) at("progress").value = Math.min(1, of / most);
-  if (of === 0 && live.lines.length === 0) at("live-state").textContent = "no run of the study has ended yet";
-  if (!live.first) live.first = {of, now};
-  const made = of - live.first.of, rest = most - of;
+  if (most > 0) at("progress").value = Math.min(1, ended / most);
+  if (ended === 0 && live.lines.length === 0) at("live-state").textContent = "no run of the study has ended yet";
+  if (!live.first || live.first.ended > ended) live.first = {ended, now};
+  const made = ended - live.first.ended, rest = most - ended;
   if (made > 0 && rest > 0)
-    at("live-state").textContent = `${of} of at most ${most} runs have ended, at most about ${timeText(rest * (now - live.first.now) / made / 1000)} left`;
+    at("live-state").textContent = `${ended} of at most ${most} runs have ended, at most about ${timeText(rest * (now - live.first.now) / made / 1000)} left`;
 }
 
 async function showMembers(study) {
   live.table = await ask(`/api/members?${ofRun(study)}`);
   if (live.run !== study) return;
   memberChart(live.table);
-  const {columns, rows, of} = live.table;
+  const {columns, rows, ended} = live.table;
   const kept = columns.map((name, i) => i).filter(i => kAlways.has(columns[i]) || new Set(rows.map(r => r[i])).size > 1);
   const [head, body] = [at("members").querySelector("thead"), at("members").querySelector("tbody")];
   head.textContent = body.textContent = "";
@@ -102,8 +102,8 @@ async function showMembers(study) {
       return go;
     });
   });
-  tellMembers(of);
-  document.documentElement.dataset.members = String(of);
+  tellMembers(ended);
+  document.documentElement.dataset.members = String(ended);
 }
 
 function beginStudies() {

@@ -41,7 +41,9 @@ std::vector<std::string> keysIn(const fs::path& members) {
 Json Workbench::start(const Json& body) {
     const fs::path file = caseOf(textOf(body, "name"));
     requireAllowed(file);
-    const std::string run = "out/" + file.stem().string();
+    std::string run = "out/" + file.stem().string();
+    for (int n = 2; body.value("beside", false) && fs::exists(fileOf(run)); ++n)
+        run = fmt::format("out/{}-{}", file.stem().string(), n);
     const fs::path out = fileOf(run);
     if (const char* command = commandOfStudy(fileContent(file).value_or(""))) {
         runs_.start(run, {command, file.string(), "--out", out.string()});  // it goes on if it was there
@@ -114,7 +116,10 @@ Json Workbench::members(const std::string& study) const {
         Json& row = rows.emplace_back(Json::array());
         for (const std::string& field : table.row(i)) row.push_back(printable(field));
     }
-    return {{"columns", table.names()}, {"keys", keysIn(folder / "members.csv")}, {"rows", rows}, {"of", table.rows()}};
+    std::size_t ended = 0;  // one that was interrupted will be run again
+    for (std::size_t i = 0; i < table.rows(); ++i)
+        ended += !table.has("status") || table.text(i, "status") != "interrupted" ? 1 : 0;
+    return {{"columns", table.names()}, {"keys", keysIn(folder / "members.csv")}, {"rows", rows}, {"ended", ended}};
 }
 
 void Workbench::events(const httplib::Request& request, httplib::Response& response, const std::atomic<bool>& stop) {

@@ -103,10 +103,12 @@ TEST_CASE("a study tells what it will run, its members as they end, and each of 
     REQUIRE(told);
     CHECK_THAT(told->body, Catch::Contains("{\"event\":\"line\",\"text\":") && Catch::Contains("\"code\":0"));
     const Json members = Json::parse(bench.get("/api/members?run=out/study")->body);
-    CHECK(members["of"] == 2);
+    CHECK(members["ended"] == 2);
     CHECK(members["columns"][0] == "member");
     CHECK(Json::parse(bench.get("/api/folder")->body)["sweeps"] == Json{"out/study"});
     CHECK(Json::parse(bench.get("/api/history?run=out/study")->body)["study"] == true);
     const Json member = Json::parse(bench.get("/api/history?run=out/study/members/0001")->body);
     CHECK(member["doses"]["dose"] == Json{1});
+    // A study that was changed finds a folder beside that of the former one.
+    CHECK(bench.asked("/api/run", {{"name", "study.toml"}, {"beside", true}})["run"] == "out/study-2");
 }
