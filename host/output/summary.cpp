@@ -305,7 +305,8 @@ std::string summaryJson(const Case& c, const RunResult& r, const std::string& ba
         j["regions"].push_back({{"name", c.world.regions.at(i).name},
                                 {"mass_kg", jsonNumber(r.last.regions[i].came.mass)},
                                 {"particles", r.last.regions[i].came.particles},
-                                {"content_kg", jsonNumber(r.last.regions[i].content.mass)}});
+                                {"content_kg", jsonNumber(r.last.regions[i].content.mass)},
+                                {"largest_content_kg", jsonNumber(r.last.regions[i].most)}});
     for (std::size_t k = 0; k < r.last.powders.size(); ++k) {
         Json powder{{"name", powdersOf(c).at(k).name}};
         putColumns(kPowderColumns, r.last.powders[k], powder);

@@ -72,7 +72,9 @@ function canvas(holder, outerWidth, outerHeight, margin, label) {
 }
 
 /// The text of a tick; what is zero but for rounding is zero.
-const tickText = scale => t => short(Math.abs(t) < 1e-9 * Math.abs(scale.domain()[1] - scale.domain()[0]) ? 0 : t);
+// Small numbers would not fit beside an axis with all their zeros.
+const tickText = scale => t => Math.abs(t) < 1e-9 * Math.abs(scale.domain()[1] - scale.domain()[0]) ? "0"
+  : Math.abs(t) < 1e-3 ? Number(t.toPrecision(4)).toExponential() : short(t);
 
 function axes(c, spec, x, y) {
   const grid = c.plot.append("g");

@@ -1,5 +1,6 @@
 #include "host/sim/region_book.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "host/model/case.h"
@@ -56,6 +57,7 @@ void RegionBook::look(const Particles& particles, const BodyPoses& poses) {
             add(samples_[r].came);
         }
     }
+    for (RegionSample& sample : samples_) sample.most = std::max(sample.most, sample.content.mass);
 }
 
 void RegionBook::openDose() {
@@ -84,6 +86,9 @@ void RegionBook::save(Record& record) const {
         put(samples_[r].content);
         put(before_[r]);
     }
+    std::vector<double> most;
+    for (const RegionSample& sample : samples_) most.push_back(sample.most);
+    record.put("region_most", std::move(most));
     record.put("region_masses", masses);
     record.put("region_counts", numbers);
     record.put("region_seen", std::vector<std::uint64_t>(seen_.begin(), seen_.end()));
@@ -104,6 +109,8 @@ void RegionBook::restore(const Record& record) {
         samples_[r].content = take();
         before_[r] = take();
     }
+    const auto& most = record.get<double>("region_most", samples_.size());
+    for (std::size_t r = 0; r < samples_.size(); ++r) samples_[r].most = most[r];
     const auto& seen = record.get<std::uint64_t>("region_seen");
     seen_.assign(seen.begin(), seen.end());
 }

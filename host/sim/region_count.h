@@ -17,6 +17,7 @@ struct RegionCount {
 struct RegionSample {
     RegionCount came;     ///< into it since the start of the run
     RegionCount content;  ///< of it now; dosed powder stays in the region that deleted it
+    double most = 0;      ///< the largest content of all samples so far [kg]
 };
 
 /// The columns of doses.csv for each region, behind all others. The name of the region and a dot stand before each.

@@ -51,7 +51,6 @@ function memberChart({columns, keys, rows}) {
     numbers.forEach(i => { add(select, "option", columns[i]); });
     select.value = numbers.some(i => columns[i] === before) && live.axes === live.run ? before : columns[usual[id]] ?? "";
   });
-  live.axes = live.run;
   const [x, y] = ["member-x", "member-y"].map(id => columns.indexOf(at(id).value)), box = at("member-chart");
   box.textContent = "";
   drawings.length = 0;
@@ -107,5 +106,8 @@ async function showMembers(study) {
 }
 
 function beginStudies() {
-  at("member-axes").addEventListener("change", () => memberChart(live.table));
+  at("member-axes").addEventListener("change", () => {
+    live.axes = live.run;  // from now on its user's choice
+    memberChart(live.table);
+  });
 }

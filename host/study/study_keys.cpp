@@ -84,7 +84,8 @@ constexpr Key kTarget[] = {
         "`\"mass_per_dose_g\"`, a figure of the doses (`\"dose.mean_kg\"`, `\"dose.rsd\"`, `\"dose.left_kg\"`: what is "
         "left in the canister), of the mass rate (`\"rate.steady_kg_s\"`) or of the cycles (`\"cycle.steady_kg\"`), or "
         "the name of a "
-        "`[[measure]]` (`\"heap.angle_deg\"`) or a body (`\"coil.largest_torque_Nm\"`) and its figure, named as in "
+        "`[[measure]]` (`\"heap.angle_deg\"`) or a body, wall (`\"coil.largest_torque_Nm\"`) or region "
+        "(`\"hopper.largest_content_kg\"`) and its figure, named as in "
         "`summary.json`"),
     number("value", kPlain, Bound::Any, kRequired, "measured, in the unit of the figure"),
     number("uncertainty", kPlain, Bound::Positive, kRequired, "standard error of the value"),

@@ -27,11 +27,15 @@ constexpr DoseFigure kDoseFigures[] = {{"dose.mean_kg", "/dose_statistics/mean_k
                                        {"dose.rsd", "/dose_statistics/rsd"},
                                        {"dose.left_kg", "/ledger/canister_mass_kg"}};
 
-/// "body.largest_torque_Nm", of the body with this name.
-double bodyFigure(const nlohmann::ordered_json& summary, const std::string& figure) {
-    const std::string body = figure.substr(0, figure.find('.')), name = figure.substr(figure.find('.') + 1);
-    for (const auto& b : summary.value("bodies", nlohmann::ordered_json::array()))
-        if (b.value("name", "") == body && b.contains(name) && b[name].is_number()) return b[name].get<double>();
+constexpr const char* kRegionFigures[] = {"mass_kg", "content_kg", "largest_content_kg"};
+
+/// "body.largest_torque_Nm", "region.content_kg": of the body, wall or region with this name.
+double namedFigure(const nlohmann::ordered_json& summary, const std::string& figure) {
+    const std::string whose = figure.substr(0, figure.find('.')), name = figure.substr(figure.find('.') + 1);
+    for (const char* list : {"bodies", "regions"})
+        for (const auto& one : summary.value(list, nlohmann::ordered_json::array()))
+            if (one.value("name", "") == whose && one.contains(name) && one[name].is_number())
+                return one[name].get<double>();
     return std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -60,7 +64,7 @@ Measured RunFigures::at(const std::string& figure) const {
         return at("/measures/" + pointer);
     };
     const double measure = ofMeasure(figure);
-    if (!std::isfinite(measure)) return {bodyFigure(summary_, figure), std::numeric_limits<double>::quiet_NaN()};
+    if (!std::isfinite(measure)) return {namedFigure(summary_, figure), std::numeric_limits<double>::quiet_NaN()};
     // Where a measure tells the error of angle_deg, it is its angle_error_deg.
     const std::size_t unit = figure.rfind('_');
     return {measure, unit == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
@@ -108,6 +112,8 @@ std::vector<std::string> figureNames(const Case& c) {
         for (const std::string& figure : figureNames(m)) names.push_back(m.name + "." + figure);
     for (const std::string& body : loadNames(c.world))
         forEachColumn(kBodyPeakColumns, [&](const auto& column) { names.push_back(body + "." + column.name); });
+    for (const CountRegion& region : c.world.regions)
+        for (const char* figure : kRegionFigures) names.push_back(region.name + "." + figure);
     return names;
 }
 

@@ -320,9 +320,11 @@ TEST_CASE("what comes into a region is in the time series, the doses and the sum
         const auto last = [&](const char* name) { return std::stod(series.back()[column(series, name)]); };
         CHECK(last("low.count") > 0);
         // It slides through and out again.
-        double most = 0;
-        for (std::size_t i = 1; i < series.size(); ++i)
+        double most = 0, heaviest = 0;
+        for (std::size_t i = 1; i < series.size(); ++i) {
             most = std::max(most, std::stod(series[i][column(series, "low.content_count")]));
+            heaviest = std::max(heaviest, std::stod(series[i][column(series, "low.content_kg")]));
+        }
         CHECK(most > 0);
         CHECK(last("low.content_count") < most);
         CHECK(last("rear.content_kg") == last("rear.mass_kg"));
@@ -336,5 +338,6 @@ TEST_CASE("what comes into a region is in the time series, the doses and the sum
         CHECK(summary["regions"][0]["name"] == "low");
         CHECK(summary["regions"][0]["particles"] == last("low.count"));
         CHECK(summary["regions"][0]["content_kg"].get<double>() == Approx(last("low.content_kg")));
+        CHECK(summary["regions"][0]["largest_content_kg"].get<double>() == Approx(heaviest));
     }
 }

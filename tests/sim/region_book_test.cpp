@@ -59,6 +59,7 @@ TEST_CASE("a region that moves with a body tells what is in it, and counts each 
     CHECK(book.samples()[1].came.particles == 1);
     CHECK(book.samples()[1].content.particles == 1);
     CHECK(book.sinceDose()[1].particles == 0);
+    CHECK(book.samples()[0].most == Approx(mass));  // at any look
 }
 
 TEST_CASE("what a vessel held is dosed, and no longer in the vessel") {
@@ -88,6 +89,8 @@ TEST_CASE("the book of regions goes on from a record as if nothing had been") {
     RegionBook again(w);
     again.restore(record);
     CHECK(again.samples()[0].content.particles == 1);
+    CHECK(again.samples()[0].most == book.samples()[0].most);
+    CHECK(again.samples()[0].most > 0);
     for (RegionBook* b : {&book, &again}) b->look(p, bodyPoses(w, 1, 0));
     for (std::size_t r = 0; r < 2; ++r) {
         CAPTURE(r);

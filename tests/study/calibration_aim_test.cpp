@@ -191,4 +191,10 @@ TEST_CASE("a target may name each figure that the run of its case has") {
     CHECK_FALSE(has(mini, "coil.rsd"));
     for (const char* name : {"ring-shear.friction_angle_deg", "ring-shear.ffc", "ring-shear.unconfined_strength_Pa"})
         CHECK(has(ring, name));
+    const std::vector<std::string> hopper = figureNames(loadCase(VKDOSE_SOURCE_DIR "/cases/validate/slot-hopper.toml"));
+    for (const char* name : {"pan.mass_kg", "pan.content_kg", "pan.largest_content_kg", "gate.largest_force_N"})
+        CHECK(has(hopper, name));
+    const std::vector<std::string> walls =
+        figureNames(loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml", {"sensors.wall_loads=true"}));
+    CHECK(has(walls, "front.largest_force_N"));
 }
