@@ -101,6 +101,8 @@ simulated = 0.1
 """
 # The resolved cases of this attack have these as the program derives them, so that it derives the same without them.
 DERIVED = ("step_s", "skin_mm")
+# Lines that say what a canister with doses has by default.
+USUAL = (["rule", "=", '"experiment"'],)
 # What these tables do not state they have from these.
 INHERITED = {"[contact.wall]": "[contact]", "[contact.coil]": "[contact.wall]"}
 # A resumed run may miss that these are spoilt: it does not need them and does not write them again.
@@ -252,7 +254,7 @@ def says_the_same(t, good, name):
         preset = words[0] == "preset" or preset and not words[0].startswith("[")
         if left and (left[0] == words or words[0] == "reason" == left[0][0]):
             left.pop(0)
-        elif words[0] in DERIVED or words == ["[time]"] or words in tables.get(INHERITED.get(table), []):
+        elif words[0] in DERIVED or words in USUAL or words == ["[time]"] or words in tables.get(INHERITED.get(table), []):
             continue
         elif not preset and (words[0], " ".join(words[2:])) not in defaults(t.ground.program):
             return False
