@@ -45,7 +45,7 @@ LawValue combined(std::string_view sign, const LawValue& a, const LawValue& b);
 /// `sign` is one of + - ! ~.
 LawValue turnedBy(std::string_view sign, const LawValue& a);
 
-/// A function of the language (isLawFunction) at these arguments, of which there are at least one.
-LawValue lawFunction(std::string_view name, std::span<const LawValue> arguments);
+/// A function of the language (isLawFunction) at the arguments `v`, of which there is at least one.
+LawValue lawFunction(std::string_view name, std::span<const LawValue> v);
 
 }  // namespace vkdose

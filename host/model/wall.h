@@ -20,14 +20,14 @@ struct Wall {
     std::string name;              ///< "rear", "plane-0", ...; walls made by hand have none
     int material = kWallMaterial;  ///< World::materials
 
-    Wall(geometry::Surface surface, std::string called = {},
+    Wall(const geometry::Surface& surface, std::string called = {},
          int of = kWallMaterial)  // NOLINT(google-explicit-constructor)
-        : shape(std::move(surface)), name(std::move(called)), material(of) {}
+        : shape(surface), name(std::move(called)), material(of) {}
     /// A shape alone: most walls that are made by hand have neither name nor material of their own.
     template <class Shape>
     requires std::constructible_from<geometry::Surface, Shape> &&
-        (!std::same_as<Shape, geometry::Surface>)Wall(Shape surface)  // NOLINT(google-explicit-constructor)
-        : shape(std::move(surface)) {}
+        (!std::same_as<Shape, geometry::Surface>)Wall(const Shape& surface)  // NOLINT(google-explicit-constructor)
+        : shape(surface) {}
 };
 
 /// The shapes of walls, in their order.

@@ -153,6 +153,17 @@ std::string statusText(MemberStatus status) {
     }
 }
 
+namespace {
+
+/// Whether the summary says what the figure is, or that there is none: a run without doses to a mass has no `targets`.
+bool tells(const Json& summary, const char* figure) {
+    const Json::json_pointer pointer(figure), group = pointer.parent_pointer();
+    if (summary.contains(pointer)) return true;
+    return !group.empty() && (!summary.contains(group) || summary.at(group).is_null());
+}
+
+}  // namespace
+
 MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     const Json summary = readSummary(folder).value_or(Json::object());
     const Table table = dosesIn(folder);
@@ -169,7 +180,7 @@ MemberResult readResult(const fs::path& folder, const MemberEnd& end) {
     }
     const MemberRemains remains{result.status, result.error, table};
     for (const MemberColumn& c : kMemberColumns) {
-        result.told.push_back(c.inSummary == nullptr || summary.contains(Json::json_pointer(c.inSummary)));
+        result.told.push_back(c.inSummary == nullptr || tells(summary, c.inSummary));
         result.outputs.push_back(c.inSummary != nullptr ? field(summary, c.inSummary) : c.own(remains));
     }
     return result;

@@ -151,6 +151,32 @@ TEST_CASE("doses that the table has lost come back from the members' folders") {
     CHECK(readText(table) == good);
 }
 
+TEST_CASE("a figure that a member does not have goes from its row") {
+    const Sweeping sweep;
+    MadeUpRuns runs(1);
+    (void)sweep.run(runs);
+    const fs::path file = sweep.out / "members.csv";
+    const std::string good = readText(file);
+    const Table table = Table::read(file);
+    for (const char* name : {"overshoot_kg", "steady_rate_kg_s"}) {  // of doses to a mass; of the rate
+        CAPTURE(name);
+        std::string text = csvLine(table.names()) + "\n";
+        for (std::size_t i = 0; i < table.rows(); ++i) {
+            Row row = table.row(i);
+            const auto column = std::find(table.names().begin(), table.names().end(), name) - table.names().begin();
+            if (i == 2) {
+                REQUIRE(row[std::size_t(column)].empty());
+                row[std::size_t(column)] = "0.25";
+            }
+            text += csvLine(row) + "\n";
+        }
+        std::ofstream(file) << text;
+        MadeUpRuns nothing(1);
+        CHECK(sweep.run(nothing).ok == 12);
+        CHECK(readText(file) == good);
+    }
+}
+
 TEST_CASE("a sweep does not go on in a table that lacks a column, and leaves it as it is") {
     const Sweeping sweep;
     MadeUpRuns runs(1);
