@@ -141,8 +141,8 @@ function lastWords(error) {
 function over(run, end) {
   live.source.close();
   live.source = null;
-  const reason = live.end ? live.end.stop_sentence : end.known ? lastWords(end.error) : "It does not run now.";
-  at("live-state").textContent = reason || (end.code === 0 ? "done" : `ended with ${end.code}`);
+  const reason = live.end ? live.end.stop_sentence : end.known ? (end.code === 0 ? "done" : lastWords(end.error)) : "It does not run now.";
+  at("live-state").textContent = reason || `ended with ${end.code}`;
   if (!live.study) drawRun();
   if (end.known && end.code === 0) at("progress").value = 1;
   buttons(false);
@@ -199,6 +199,7 @@ const kPythonOfStudy = run => `import vkdose\n\nstudy = vkdose.SweepResult(${JSO
 /// What can be taken out of a run: the label, and what is done.
 const exportsOf = study => (study ? [
   ["members.csv", () => openFile(live.run, "members.csv")], ["figures.csv", () => openFile(live.run, "figures.csv")],
+  ["calibrated.toml", () => openFile(live.run, "calibrated.toml")],
 ] : [
   ["picture", () => openMade("the picture", "/api/picture", {run: live.run})],
   ["film", () => openMade("the film", "/api/picture", {run: live.run, film: true})],

@@ -68,10 +68,12 @@ function mostRuns() {
   return most ? Number(most[1]) : plan.split("\n").filter(l => l.startsWith("member")).length;
 }
 
-/// Before a member has ended there is nothing to show, and nothing by which to tell how long it takes.
-function tellMembers(ended) {
+/// Before a member has ended there is nothing to show, and nothing by which to tell how long it takes. The table lacks the
+/// runs that confirm a point; what the study tells has them.
+function tellMembers(inTable) {
   at("members").hidden = live.table.rows.length === 0;
   if (!live.source) return;
+  const ended = Math.max(inTable, live.lines.filter(l => /^member \d+ .* (ok|failed): /.test(l)).length);
   const most = mostRuns(), now = Date.now();
   if (most > 0) at("progress").value = Math.min(1, ended / most);
   if (ended === 0 && live.lines.length === 0) at("live-state").textContent = "no run of the study has ended yet";

@@ -33,6 +33,7 @@ constexpr std::array kFiles{
     Kind{"particles.csv", "text/csv; charset=utf-8", false},
     Kind{"members.csv", "text/csv; charset=utf-8", false},
     Kind{"figures.csv", "text/csv; charset=utf-8", false},
+    Kind{"calibrated.toml", "text/plain; charset=utf-8", false},
     Kind{"summary.json", "application/json", false},
     Kind{"case.toml", "text/plain; charset=utf-8", false},
     Kind{"comparison.html", "text/html; charset=utf-8", true},

@@ -333,7 +333,7 @@ class Workbench(unittest.TestCase):
         self.at("run").click()
         self.assertFalse(self.at("member-x").is_displayed())  # before a member has ended there are no axes to choose
         self.until(lambda: self.data("over") == "out/study")
-        self.assertNotIn("\\x0a", self.at("live-state").text)
+        self.assertEqual(self.at("live-state").text, "done")
         self.until(lambda: self.data("members") == "2")
         self.assertEqual(len(self.page.find_elements(By.CSS_SELECTOR, "#member-chart circle")), 2)
         Select(self.at("member-y")).select_by_visible_text("rate.window_s")
