@@ -28,9 +28,12 @@ std::string valueText(double value, const std::optional<double>& error, const st
     return unit.empty() ? text : text + " " + unit;
 }
 
+std::size_t fittedOf(const PowderFile& p) {
+    return std::size_t(std::count_if(p.held.begin(), p.held.end(), [](const PowderFile::Held& h) { return h.fitted; }));
+}
+
 std::string heldText(const PowderFile& p) {
-    const auto fitted =
-        std::size_t(std::count_if(p.held.begin(), p.held.end(), [](const PowderFile::Held& h) { return h.fitted; }));
+    const std::size_t fitted = fittedOf(p);
     if (p.held.empty()) return "held against nothing";
     return fmt::format("{} fitted, {} predicted", fitted, p.held.size() - fitted);
 }
@@ -51,12 +54,12 @@ std::string listText(const std::vector<PowderFile>& powders) {
 Json listJson(const std::vector<PowderFile>& powders) {
     Json list = Json::array();
     for (const PowderFile& p : powders) {
-        const auto fitted = std::count_if(p.held.begin(), p.held.end(), [](const auto& h) { return h.fitted; });
+        const std::size_t fitted = fittedOf(p);
         list.push_back({{"name", p.file.stem().string()},
                         {"title", printable(p.title)},
                         {"published", p.laboratory.size()},
                         {"fitted", fitted},
-                        {"predicted", std::ptrdiff_t(p.held.size()) - fitted},
+                        {"predicted", p.held.size() - fitted},
                         {"draws", p.draws.has_value()}});
     }
     return list;

@@ -77,6 +77,11 @@ void setLawTrial(LawTrial trial) {
     trialOfProcess() = std::move(trial);
 }
 
+double mostStiffness(const ContactParameters& p) {
+    constexpr double kFactor = 1000;
+    return p.kMost > 0 ? kFactor * p.kMost : std::numeric_limits<double>::infinity();
+}
+
 void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
     if (!c.dosingLaw.user) return;
     const UserLaw& law = *c.dosingLaw.user;

@@ -35,7 +35,7 @@ class Workbench {
     /// The keys of cases or of studies.
     Json keys(bool ofStudies);
     /// The powders that are known, as `vkdose powders --json` tells them.
-    Json powders() const { return asked({"powders", "--json"}, std::chrono::milliseconds(20000)); }
+    Json powders() const;
     Json check(const std::string& name, const std::string& text) const;
     static Json edit(const Json& body);
     Json save(const Json& body) const;

@@ -94,6 +94,10 @@ Json Workbench::read(const std::string& name) const {
     return {{"name", name}, {"text", *text}};
 }
 
+Json Workbench::powders() const {
+    return asked({"powders", "--json"}, kCheckLimit);
+}
+
 /// A powder's name could lead to a file anywhere.
 void Workbench::requireKnown(const std::string& powder) const {
     const Json known = powders();

@@ -8,6 +8,7 @@
 #include "host/backend/reference/rolling.h"
 #include "host/backend/reference/sliding.h"
 #include "host/backend/reference/torsion.h"
+#include "host/model/user_law_trial.h"
 
 namespace vkdose::reference {
 
@@ -65,17 +66,16 @@ struct Normal {
 /// Of a user's law. Answers that its trial would have refused make the force no number, which ends the run.
 Normal userNormal(const ContactParameters& p, const Touch& touch, double speed, History& history, LawProgram& user) {
     const LawAnswer a = user.answer(p.own, {touch.overlap, speed, touch.reduced / 2, touch.mass}, history.own);
-    constexpr double kFactor = 1000;  // the trial asked at some points only
-    const double most = p.kMost > 0 ? kFactor * p.kMost : std::numeric_limits<double>::max();
     const auto isSize = [](double x) { return x >= 0 && std::isfinite(x); };
-    const bool sound = a.stiffness > 0 && a.stiffness <= most && isSize(a.damping) && isSize(a.pull);
+    const bool sound = isSize(a.stiffness) && a.stiffness > 0 && a.stiffness <= mostStiffness(p) && isSize(a.damping) &&
+                       isSize(a.pull);
     const double before = history.stiffness;
     history.stiffness = a.stiffness;
     history.maxOverlap = std::max(touch.overlap, 1e-9 * touch.reduced);  // above 0: the contact goes on
     return {{sound ? a.force : std::numeric_limits<double>::quiet_NaN(), a.damping, a.pull, a.stiffness * p.kt,
              a.stiffness * p.kr, a.stiffness * p.kTo, a.damping * p.gammaT, a.damping * p.gammaR, a.damping * p.gammaTo,
              true},
-            before > 0 ? std::min(1.0, before / a.stiffness) : 1.0,
+            springsKept(before, a.stiffness),
             a.energy};
 }
 

@@ -82,6 +82,10 @@ double springsKept(const ContactParameters& p, double reduced, double mass, doub
     return was < is ? was / is : 1;
 }
 
+double springsKept(double was, double is) {
+    return was > 0 && was < is ? was / is : 1;
+}
+
 double storedEnergy(const ContactParameters& p, double overlap, double reduced, double force, double memory) {
     if (p.law == NormalLaw::HertzMindlin) return 0.4 * force * overlap;
     if (p.law == NormalLaw::Eepa) return eepaPath(p, reduced, memory).energy(overlap);

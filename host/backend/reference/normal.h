@@ -26,6 +26,8 @@ NormalAnswer normalAnswer(const ContactParameters& p, double overlap, double red
 /// they keep their length, so that they exert less. Neither gives them energy (Thornton, Cummins and Cleary 2013,
 /// Powder Technology 233:30). 1 under a law whose stiffness does not change.
 double springsKept(const ContactParameters& p, double reduced, double mass, double before, double now);
+/// The same of a contact whose stiffness goes from `was`, 0 of a new one, to `is` [N/m].
+double springsKept(double was, double is);
 
 /// Energy that the normal direction gives back when the contact parts slowly [J]. `force` [N] is the answer's. Under
 /// EEPA and JKR the work of the pull counts too, so that it may be negative.

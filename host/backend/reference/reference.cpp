@@ -10,9 +10,9 @@
 #include "host/backend/reference/free_motion.h"
 #include "host/backend/reference/neighbours.h"
 #include "host/core/error.h"
-#include "host/core/fnv.h"
 #include "host/model/law_checks.h"
 #include "host/model/normal_law.h"
+#include "host/model/user_law_state.h"
 
 namespace vkdose {
 
@@ -159,17 +159,14 @@ Record ReferenceBackend::snapshot() const {
     record.putOne("rebuilds", neighbours_.builds());
     record.put("list_anchor", flat(neighbours_.anchors()));
     if (moveFreely(world_.bodies)) reference::saveFreeBodies(free_, record);
-    if (world_.law.user) record.putOne("user_law", fnv1a(world_.law.user->text));
+    putLaw(world_.law.user, record);
     forces_.save(record);
     return record;
 }
 
 void ReferenceBackend::restore(const Record& record) {
     const std::size_t n = particles_.size();
-    const auto& law = world_.law.user;
-    const auto before = record.arrays().contains("user_law") ? record.one<std::uint64_t>("user_law") : 0;
-    if (before != (law ? fnv1a(law->text) : 0))
-        throw RecordError(fmt::format("it was made under another law than {}", law ? law->name : "that of the case"));
+    requireLaw(world_.law.user, record);
     const auto vectors = [&](const char* name, std::vector<Vec3>& to) {
         const auto& values = record.get<double>(name, 3 * to.size());
         for (std::size_t i = 0; i < to.size(); ++i) to[i] = Vec3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);

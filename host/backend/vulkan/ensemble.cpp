@@ -9,8 +9,8 @@
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/snapshot.h"
 #include "host/core/error.h"
-#include "host/core/fnv.h"
 #include "host/model/normal_law.h"
+#include "host/model/user_law_state.h"
 #include "host/model/user_law_trial.h"
 
 namespace vkdose {
@@ -208,7 +208,7 @@ Record Ensemble::snapshot(std::uint32_t member) const {
     Record record;
     saveState(*passes_, member, m.loaded.size(), m.half(), record);
     record.putOne(kSnapshotSteps, m.step);
-    if (const auto& law = passes_->sizes.userLaw) record.putOne("user_law", fnv1a(law->text));
+    putLaw(passes_->sizes.userLaw, record);
     record.putOne("drive", std::uint64_t(m.drive));
     saveFree(m, record);
     return record;
@@ -218,10 +218,7 @@ void Ensemble::restore(std::uint32_t member, const Record& record) {
     MemberState& m = members_[member];
     const auto step = record.one<std::uint64_t>(kSnapshotSteps);
     const auto drive = std::int64_t(record.one<std::uint64_t>("drive"));
-    const auto& law = passes_->sizes.userLaw;
-    const auto before = record.arrays().contains("user_law") ? record.one<std::uint64_t>("user_law") : 0;
-    if (before != (law ? fnv1a(law->text) : 0))
-        throw RecordError(fmt::format("it was made under another law than {}", law ? law->name : "that of the case"));
+    requireLaw(passes_->sizes.userLaw, record);
     restoreState(*passes_, member, m.loaded.size(), std::uint32_t(step), record);
     restoreFree(record, step, m);
     m.drive = drive;

@@ -11,6 +11,7 @@
 #include "host/backend/vulkan/split.h"
 #include "host/core/error.h"
 #include "host/model/normal_law.h"
+#include "host/model/user_law_trial.h"
 
 namespace vkdose {
 
@@ -31,12 +32,6 @@ static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
 static_assert(gpu::kOwnParameters == kMostLawParameters && gpu::kOwnMemories == kMostLawMemories);
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
-/// The largest stiffness that a run takes from a user's law [N/m]. The trial asked at some points only.
-float mostStiffness(const ContactParameters& c) {
-    constexpr double kFactor = 1000, kMost = std::numeric_limits<float>::max();
-    return c.kMost > 0 ? float(std::min(kFactor * c.kMost, kMost)) : float(kMost);
-}
-
 gpu::ContactParams packContact(const ContactParameters& c) {
     gpu::ContactParams p{};
     const bool bySize = c.coulombLimit == CoulombLimit::Absolute;
@@ -47,7 +42,7 @@ gpu::ContactParams packContact(const ContactParameters& c) {
     if (c.law == NormalLaw::User) {
         for (std::size_t k = 0; k < c.own.size(); ++k) p.own[k / 4][int(k % 4)] = float(c.own[k]);
         p.friction.w = float(c.reach);
-        p.normal.x = mostStiffness(c);
+        p.normal.x = float(std::min(mostStiffness(c), double(std::numeric_limits<float>::max())));
         return p;
     }
     if (c.law == NormalLaw::Luding) {
