@@ -19,26 +19,23 @@ Runs::~Runs() {
 }
 
 void Runs::start(const std::string& name, const std::vector<std::string>& arguments) {
-    std::unique_ptr<Run> former;
-    {
-        const std::lock_guard lock(mutex_);
-        const auto found = runs_.find(name);
-        if (found != runs_.end() && found->second->running)
-            throw RunError(fmt::format("{} is going on; stop it first", printable(name)));
-        const auto count = std::count_if(runs_.begin(), runs_.end(), [](const auto& r) { return r.second->running; });
-        if (std::size_t(count) >= kMost)
-            throw RunError(fmt::format("{} runs are going on; stop one, or wait for its end", count));
-        if (found != runs_.end()) {
-            former = std::move(found->second);
-            runs_.erase(found);
-        }
+    const std::lock_guard lock(mutex_);  // to the end: of two that start a run at once the second finds it going on
+    const auto former = runs_.find(name);
+    if (former != runs_.end() && former->second->running)
+        throw RunError(fmt::format("{} is going on; stop it first", printable(name)));
+    const auto count = std::count_if(runs_.begin(), runs_.end(), [](const auto& r) { return r.second->running; });
+    if (std::size_t(count) >= kMost)
+        throw RunError(fmt::format("{} runs are going on; stop one, or wait for its end", count));
+    decltype(runs_) begun;
+    Run& run = *(begun[name] = std::make_unique<Run>());
+    run.child = std::make_unique<Child>(program_, arguments, folder_, true);
+    run.reader = std::thread([this, &run] { read(run); });
+    // Nothing throws from here on: a thread that nobody joins would end the workbench.
+    if (former != runs_.end()) {
+        former->second->reader.join();  // at its end: it takes the lock no more
+        runs_.erase(former);
     }
-    if (former) former->reader.join();
-    auto run = std::make_unique<Run>();
-    run->child = std::make_unique<Child>(program_, arguments, folder_, true);
-    const std::lock_guard lock(mutex_);
-    Run& kept = *(runs_[name] = std::move(run));
-    kept.reader = std::thread([this, &kept] { read(kept); });
+    runs_.merge(begun);
 }
 
 void Runs::read(Run& run) {

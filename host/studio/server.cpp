@@ -134,13 +134,13 @@ void serve(const ServerOptions& options, const std::function<void(const std::str
     const Gate gate(port);
     guard(server, gate);
     route(server, workbench, stop);
-    std::thread watcher([&] {
-        while (!stop && server.is_valid()) std::this_thread::sleep_for(milliseconds(100));
+    const std::jthread watcher([&](const std::stop_token& over) {
+        // A server can be stopped once it listens, not before.
+        while (!over.stop_requested() && !(stop && server.is_running())) std::this_thread::sleep_for(milliseconds(100));
         server.stop();
     });
     listening(gate.address());
     server.listen_after_bind();
-    watcher.join();
 }
 
 }  // namespace vkdose::studio

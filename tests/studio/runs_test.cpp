@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <thread>
+#include <vector>
 
+#include "host/core/error.h"
+#include "host/studio/runs.h"
 #include "tests/studio/bench.h"
 
 using namespace vkdose;
@@ -111,4 +116,30 @@ TEST_CASE("a study tells what it will run, its members as they end, and each of 
     CHECK(member["doses"]["dose"] == Json{1});
     // A study that was changed finds a folder beside that of the former one.
     CHECK(bench.asked("/api/run", {{"name", "study.toml"}, {"beside", true}})["run"] == "out/study-2");
+}
+
+TEST_CASE("of pages that start a run at once one is told yes, and the others that it is going on") {
+    const Folder folder;
+    studio::Runs runs("/bin/cat", folder.path());  // reads its orders until it is stopped
+    constexpr int kPages = 4, kRounds = 50;
+    for (int round = 0; round < kRounds; ++round) {
+        std::atomic<int> ready = 0, begun = 0, refused = 0;
+        const auto start = [&] {
+            ++ready;
+            while (ready < kPages) std::this_thread::yield();
+            try {
+                runs.start("out/my", {});
+                ++begun;
+            } catch (const RunError&) {
+                ++refused;
+            }
+        };
+        std::vector<std::jthread> pages;
+        for (int page = 0; page < kPages; ++page) pages.emplace_back(start);
+        pages.clear();
+        CHECK(begun == 1);
+        CHECK(refused == kPages - 1);
+        CHECK(runs.stop("out/my"));
+        while (!runs.running().empty()) std::this_thread::yield();
+    }
 }
