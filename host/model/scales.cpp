@@ -67,6 +67,14 @@ void checkSteps(CaseReader& reader, const Case& c) {
             reader.fault(key, fmt::format("is more than {:.0e} time steps of {:.3g} s", kMostSteps, c.world.timeStep),
                          "give a shorter time, or contacts with a longer time step");
     }
+    const double back = s.reverseTime(), turnsPerStep = s.coilSpeed * c.world.timeStep / (2 * kPi);
+    if (back > 0 && std::round(back / c.world.timeStep) < 1)
+        reader.fault("dose.reverse_turns", "takes less than half a time step",
+                     fmt::format("give 0 or at least {:.4g}", turnsPerStep));
+    if (std::isfinite(back) && back / c.world.timeStep > kMostSteps)
+        reader.fault("dose.reverse_turns",
+                     fmt::format("takes more than {:.0e} time steps of {:.3g} s", kMostSteps, c.world.timeStep),
+                     "give fewer turns, or contacts with a longer time step");
 }
 
 /// Spheres as large as a head make the time step so long that everything else seems wrong; a list has them if its

@@ -36,6 +36,8 @@ TEST_CASE("numbers that do not go together are refused by name") {
         {{"settle.time_s=1e-9"}, "settle.time_s = 1e-9: is shorter than half a time step"},
         {{"dose.rotate_s=1e14"}, "dose.rotate_s = 1e14: is more than 1e+15 time steps"},
         {{"dose.rest_s=1e14"}, "dose.rest_s = 1e14: is more than"},
+        {{"dose.reverse_turns=1e-320"}, "dose.reverse_turns = 1e-320: takes less than half a time step"},
+        {{"dose.reverse_turns=1e8", "coil.speed_rpm=1e-3"}, "dose.reverse_turns = 1e8: takes more than 1e+15 time"},
         {{"stop.end_time_s=1e14"}, "stop.end_time_s = 1e14: is more than"},
         {{"time.skin_mm=1000"}, "time.skin_mm = 1000: makes every particle a neighbour"},
         {{"time.skin_mm=21"}, "time.skin_mm = 21: gives particle 0 at ("},
