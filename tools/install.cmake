@@ -29,7 +29,7 @@ install(CODE [[
 
 # The library for programs in C++: an archive of the rooms that host/play takes, with their shaders.
 add_library(vkdose_library STATIC)
-foreach(room core geometry glsl model sim analysis output reference vk vulkan play volk)
+foreach(room core geometry law glsl model sim analysis output reference vk vulkan play volk)
   target_sources(vkdose_library PRIVATE $<TARGET_OBJECTS:vkdose_${room}>)
 endforeach()
 target_include_directories(vkdose_library INTERFACE $<INSTALL_INTERFACE:include/vkdose>)

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "host/advice/rules.h"
+#include "host/core/key.h"
 #include "host/core/printable.h"
-#include "host/model/key.h"
 
 namespace vkdose {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/advice/rules.h"
+#include "host/core/key.h"
 #include "host/core/millimetres.h"
-#include "host/model/key.h"
 
 namespace vkdose {
 namespace {

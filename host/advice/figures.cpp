@@ -7,11 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include "host/law/law.h"
 #include "host/model/bed_weight.h"
-#include "host/model/normal_law.h"
 #include "host/model/powders.h"
-#include "host/model/pull_off.h"
-#include "host/model/restitution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {

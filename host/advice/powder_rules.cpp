@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "host/advice/rules.h"
+#include "host/law/luding.h"
 #include "host/model/bed_weight.h"
 #include "host/model/powders.h"
-#include "host/model/restitution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {

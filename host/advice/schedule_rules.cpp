@@ -7,7 +7,7 @@
 
 #include "host/advice/advice.h"
 #include "host/advice/rules.h"
-#include "host/model/closest_word.h"
+#include "host/core/closest_word.h"
 #include "host/model/overlaps.h"
 
 namespace vkdose {

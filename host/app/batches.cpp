@@ -4,7 +4,7 @@
 #include <string>
 #include <tuple>
 
-#include "host/model/user_law.h"
+#include "host/law/user_law.h"
 
 namespace vkdose {
 

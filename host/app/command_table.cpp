@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "host/model/closest_word.h"
+#include "host/core/closest_word.h"
 
 namespace vkdose {
 

@@ -3,8 +3,8 @@
 #include "host/app/interrupt.h"
 #include "host/app/tell.h"
 #include "host/core/json.h"
+#include "host/core/key.h"
 #include "host/core/printable.h"
-#include "host/model/key.h"
 #include "host/model/powders.h"
 
 namespace vkdose {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "host/app/backends.h"
+#include "host/core/closest_word.h"
 #include "host/core/file.h"
 #include "host/core/printable.h"
 #include "host/model/case_tree.h"
-#include "host/model/closest_word.h"
 
 namespace vkdose {
 

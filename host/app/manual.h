@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/model/key.h"
+#include "host/core/key.h"
 
 namespace CLI {
 class App;

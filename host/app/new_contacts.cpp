@@ -8,7 +8,7 @@
 #include "host/advice/figures.h"
 #include "host/app/measures.h"
 #include "host/app/new_design.h"
-#include "host/model/pull_off.h"
+#include "host/law/luding.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {

@@ -8,9 +8,9 @@
 #include "host/app/new_file.h"
 #include "host/app/tell.h"
 #include "host/core/error.h"
+#include "host/core/key.h"
 #include "host/core/printable.h"
 #include "host/model/case_tree.h"
-#include "host/model/key.h"
 #include "host/play/backend_choice.h"
 
 namespace vkdose {

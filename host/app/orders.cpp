@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/key.h"
 #include "host/core/number.h"
 #include "host/core/output_file.h"
-#include "host/model/key.h"
 #include "host/play/simulation.h"
 
 namespace vkdose {

@@ -16,7 +16,6 @@
 #include "host/model/case_reader.h"
 #include "host/model/case_sections.h"
 #include "host/model/checks.h"
-#include "host/model/normal_law.h"
 #include "host/model/parse_toml.h"
 #include "host/model/powder_file.h"
 #include "host/model/powders.h"

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "host/model/key.h"
+#include "host/core/key.h"
 
 namespace vkdose {
 

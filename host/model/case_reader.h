@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/core/key.h"
 #include "host/model/case_tree.h"
-#include "host/model/key.h"
 #include "host/model/section.h"
 
 namespace vkdose {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/closest_word.h"
 #include "host/core/printable.h"
-#include "host/model/closest_word.h"
 
 namespace vkdose {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "host/core/vec.h"
+#include "host/law/impact.h"
+#include "host/law/luding.h"
 #include "host/model/bed_weight.h"
-#include "host/model/pull_off.h"
-#include "host/model/restitution.h"
 
 namespace vkdose {
 namespace {

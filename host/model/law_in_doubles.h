@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/model/law_program.h"
+#include "host/law/law_program.h"
 #include "host/model/user_law_trial.h"
 
 namespace vkdose {

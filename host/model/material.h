@@ -3,13 +3,12 @@
 // Matter 10:235, and the paper's table).
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "host/model/user_law.h"
+#include "host/law/contact_parameters.h"
 
 namespace vkdose {
 
@@ -45,54 +44,8 @@ constexpr MaterialPair pairOf(ContactClass c) {
 static_assert(pairOf(ContactClass::ParticleWall).b == kWallMaterial &&
               pairOf(ContactClass::ParticleCoil).b == kCoilMaterial);
 
-/// Normal force that limits friction: Luding -> max(0, f + k_c delta); Absolute -> |f_n|, damping included.
-enum class CoulombLimit { Luding = 0, Absolute = 1 };
-
 /// Rolling lever a_r: Full -> 2 a_i a_j/(a_i + a_j) (wall: 2 a_i); Half -> half of it (Luding's own).
 enum class RollingLever { Full = 0, Half = 1 };
-
-/// The law of the normal force. It also says how stiff sliding, rolling and torsion are, and how strongly all are
-/// damped.
-enum class NormalLaw {
-    Luding = 0,        ///< linear, hysteretic, adhesive
-    HertzMindlin = 1,  ///< elastic spheres: all stiffnesses and dampings grow with the overlap
-    Eepa = 2,  ///< Edinburgh's elasto-plastic adhesive spheres: Hertz's line, from which contacts stay flattened
-    Jkr = 3,   ///< elastic adhesive spheres (Johnson, Kendall, Roberts): contacts hold on beyond touch
-    User = 4,  ///< ContactLaw::user
-};
-
-/// Under Hertz-Mindlin, EEPA and JKR kt, kr and kTo are ratios to the stiffness 2 E* a of a contact of the radius a,
-/// which is that of Hertz's line, gammaT, gammaR and gammaTo ratios to its damping [-]; k1, k2Max, kc, plasticityDepth
-/// and gamma are not used. Under a user's law they are ratios to what its functions stiffness and damping answer. k1 is
-/// then the largest stiffness of mean spheres, k2Max that of the smallest, gamma their largest damping and reach the
-/// farthest, as a device told them (user_law_trial.h).
-struct ContactParameters {
-    double k1 = 0;               ///< plastic loading stiffness [N/m]
-    double k2Max = 0;            ///< limit elastic stiffness, k2-hat [N/m]
-    double kc = 0;               ///< adhesion stiffness [N/m]
-    double plasticityDepth = 0;  ///< phi_f [-]
-    double gamma = 0;            ///< normal viscosity [kg/s]
-    double kt = 0;               ///< sliding stiffness [N/m]
-    double gammaT = 0;           ///< sliding viscosity [kg/s]
-    double mu = 0;               ///< sliding friction [-]
-    double kr = 0;               ///< rolling stiffness [N/m]
-    double gammaR = 0;           ///< rolling viscosity [kg/s]
-    double muR = 0;              ///< rolling friction [-]
-    double kTo = 0;              ///< torsion stiffness [N/m]
-    double gammaTo = 0;          ///< torsion viscosity [kg/s]
-    double muTo = 0;             ///< torsion friction [-]; 0 switches torsion off
-    CoulombLimit coulombLimit = CoulombLimit::Luding;
-    NormalLaw law = NormalLaw::Luding;
-    double modulus = 0;          ///< Hertz-Mindlin, EEPA, JKR: E*, effective Young's modulus of the two bodies [Pa]
-    double dampingShare = 0;     ///< Hertz-Mindlin, EEPA, JKR: beta, which gives the restitution (normal_law.h) [-]
-    double surfaceEnergy = 0;    ///< EEPA, JKR: delta gamma, of the two surfaces [J/m2]
-    double plasticityRatio = 0;  ///< EEPA: lambda_p = 1 - k1/k2, below 1 [-]
-    double constantPull = 0;     ///< EEPA: -f0, a pull that every contact has [N]
-    double reach = 0;            ///< User: how far beyond touch any contact holds on, at most [m]
-    double kMost = 0;            ///< User: the largest stiffness that the law's trial found [N/m]
-    std::array<double, kMostLawParameters> own{};  ///< User: in the order of UserLaw::parameters
-    double adhesionExponent = 1.5;                 ///< EEPA: chi, with which the pull fades as the contact opens [-]
-};
 
 /// The parameters of each pair of materials. Pairs that cannot touch, as two walls, are there and mean nothing.
 class PairTable {

@@ -8,7 +8,6 @@
 #include "host/core/millimetres.h"
 #include "host/model/checks.h"
 #include "host/model/clearance.h"
-#include "host/model/normal_law.h"
 
 namespace vkdose {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "host/core/key.h"
 #include "host/model/case.h"
 #include "host/model/case_tree.h"
-#include "host/model/key.h"
 
 namespace vkdose {
 

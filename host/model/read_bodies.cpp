@@ -6,10 +6,10 @@
 #include <set>
 
 #include "geometry/mesh.h"
+#include "host/core/closest_word.h"
 #include "host/core/csv_table.h"
 #include "host/core/printable.h"
 #include "host/model/case_sections.h"
-#include "host/model/closest_word.h"
 #include "host/model/named_file.h"
 
 namespace vkdose {

@@ -1,9 +1,12 @@
 // The tables [contact]: which law, which pairs of materials, and the law of the user's own. read_luding.cpp and
 // read_elastic.cpp read the other laws.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
+#include "host/law/law_keys.h"
 #include "host/model/read_laws.h"
 #include "host/model/read_user_law.h"
 #include "host/model/scaling.h"
@@ -15,45 +18,19 @@ namespace {
 /// are known only where the two agree; the others are NaN.
 ContactParameters mixture(const ContactParameters& a, const ContactParameters& b) {
     ContactParameters mixed = a;
-    for (double ContactParameters::*member :
-         {&ContactParameters::mu, &ContactParameters::kt, &ContactParameters::gammaT, &ContactParameters::muR,
-          &ContactParameters::kr, &ContactParameters::gammaR, &ContactParameters::muTo, &ContactParameters::kTo,
-          &ContactParameters::gammaTo})
-        mixed.*member = geometricMean(a.*member, b.*member);
+    for (const auto& key : parametersOf(normalLaw(NormalLaw::User)))
+        mixed.*key.member = geometricMean(a.*key.member, b.*key.member);
     for (std::size_t k = 0; k < mixed.own.size(); ++k)
         if (a.own[k] != b.own[k]) mixed.own[k] = std::numeric_limits<double>::quiet_NaN();
     return mixed;
 }
 
-constexpr MixedKey<ContactParameters> kUserKeys[] = {{"friction", &ContactParameters::mu},
-                                                     {"kt_over_k", &ContactParameters::kt},
-                                                     {"damping_t_ratio", &ContactParameters::gammaT},
-                                                     {"rolling_friction", &ContactParameters::muR},
-                                                     {"kr_over_k", &ContactParameters::kr},
-                                                     {"damping_r_ratio", &ContactParameters::gammaR},
-                                                     {"torsion_friction", &ContactParameters::muTo},
-                                                     {"kto_over_k", &ContactParameters::kTo},
-                                                     {"damping_to_ratio", &ContactParameters::gammaTo}};
-
 /// A law of the user's own: its parameters, and friction and the ratios of the springs to its stiffness.
 void readUser(const LawTables& in) {
     CaseReader& reader = in.reader;
     Case& c = in.c;
-    for (const PairSection& p : in.pairs) {
-        for (const char* key : kLudingKeys)
-            if (std::string_view(key) != "kt_over_k" && std::string_view(key) != "damping_t_ratio")
-                refuseKeys(reader, *p.section, {key}, "luding");
-        if (!p.isNamed()) refuseKeys(reader, *p.section, {"derived"}, "luding");
-        refuseKeys(reader, *p.section, kElasticKeys, "hertz-mindlin");
-        refuseKeys(reader, *p.section, {"restitution"}, "hertz-mindlin");
-        refuseKeys(reader, *p.section, kPlasticKeys, "eepa");
-        refuseKeys(reader, *p.section, kAdhesiveKeys, "jkr");
-        refusePairKeys(reader, p);
-    }
-    for (const auto& [material, table] : in.materials) refuseKeys(reader, *table, kElasticKeys, "hertz-mindlin");
-    refuseKeys(reader, in.contact(), {"soften"}, "luding");
-    refuseKeys(reader, in.settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic", "damping_factor"},
-               "luding");
+    refuseKeys(reader, in.settle, {"damping_factor"}, "luding");
+    const std::vector<MixedKey<ContactParameters>> keys = parametersOf(normalLaw(NormalLaw::User));
     const std::shared_ptr<const UserLaw> law = readUserLaw(reader, in.contact());
     c.dosingLaw.user = law;
     for (const PairSection& p : in.pairs) {
@@ -65,19 +42,46 @@ void readUser(const LawTables& in) {
             parent = mixture(c.dosingLaw.between(a, a), c.dosingLaw.between(b, b));
         ContactParameters& made = c.dosingLaw.of(p.stated.pair);
         made.law = NormalLaw::User;
-        for (const auto& key : kUserKeys)
+        for (const auto& key : keys)
             made.*key.member = p.section->number(key.name, first ? std::nullopt : std::optional(parent.*key.member));
         if (law)
             made.own = readOwn(reader, *p.section, *law, first ? nullptr : &parent.own);
         else
             p.section->know("parameters");
         std::string words;
-        if (p.stated.source == PairSource::Mixture) words = mixedWords(p, made, kUserKeys);
+        if (p.stated.source == PairSource::Mixture) words = mixedWords(p, made, keys);
         if (!words.empty()) words += ": " + meansOf(in, p, "geometric");
         if (p.stated.source == PairSource::Parent && p.isNamed() && !p.given) words = inheritanceOf(in, p);
         tell(in, p, words);
     }
     c.settlingLaw = c.dosingLaw;
+}
+
+/// Tells of keys that are another law's.
+void refuseOtherLaws(const LawTables& in, const Law& law) {
+    CaseReader& reader = in.reader;
+    std::set<std::string_view> known;
+    for (const LawKey& own : law.keys()) known.insert(own.key.name);
+    // Of the laws that have a key, the one that asks for the fewest others is told.
+    std::vector<const Law*> others(laws().begin(), laws().end());
+    std::stable_sort(others.begin(), others.end(),
+                     [](const Law* a, const Law* b) { return a->keys().size() < b->keys().size(); });
+    for (const Law* other : others)
+        for (const LawKey& theirs : other->keys())
+            if (known.insert(theirs.key.name).second)
+                for (const PairSection& p : in.pairs) refuseKeys(reader, *p.section, {theirs.key.name}, other->word());
+    const auto refuse = [&](Section& section, std::initializer_list<std::string_view> keys) {
+        refuseKeys(reader, section, keys, normalLaw(NormalLaw::Luding).word());
+    };
+    if (law.kind() != NormalLaw::Luding) {
+        for (const PairSection& p : in.pairs)
+            p.isNamed() ? refuse(*p.section, {"settling_kc_over_k"}) : refuse(*p.section, {"derived"});
+        refuse(in.contact(), {"soften"});
+        refuse(in.settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic"});
+    }
+    if (law.fromModuli()) return;
+    for (const auto& [material, table] : in.materials)
+        refuseKeys(reader, *table, {"youngs_modulus", "poisson_ratio"}, normalLaw(NormalLaw::HertzMindlin).word());
 }
 
 /// Whether the case names a file in place of a law of the program's.
@@ -97,8 +101,9 @@ std::vector<PairSection> tablesOf(CaseReader& reader, Section& contact, const Wo
 
 }  // namespace
 
-void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<const char*> keys, const char* law) {
-    for (const char* key : keys) {
+void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<std::string_view> keys,
+                std::string_view law) {
+    for (const std::string_view key : keys) {
         section.know(key);
         if (section.has(key))
             reader.fault(section.path(key), fmt::format("is a key of the law {}", law),
@@ -106,8 +111,17 @@ void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<cons
     }
 }
 
-void refusePairKeys(CaseReader& reader, const PairSection& pair) {
-    if (pair.isNamed()) refuseKeys(reader, *pair.section, {"settling_kc_over_k"}, "luding");
+std::vector<MixedKey<ContactParameters>> parametersOf(const Law& law) {
+    std::vector<MixedKey<ContactParameters>> keys{{"friction", &ContactParameters::mu},
+                                                  {"rolling_friction", &ContactParameters::muR},
+                                                  {"kr_over_k", &ContactParameters::kr},
+                                                  {"damping_r_ratio", &ContactParameters::gammaR},
+                                                  {"torsion_friction", &ContactParameters::muTo},
+                                                  {"kto_over_k", &ContactParameters::kTo},
+                                                  {"damping_to_ratio", &ContactParameters::gammaTo}};
+    for (const LawKey& own : law.keys())
+        if (own.member != nullptr) keys.push_back({own.key.name, own.member});
+    return keys;
 }
 
 void tell(const LawTables& in, const PairSection& pair, std::string words) {
@@ -155,7 +169,7 @@ void readFrictionLimits(const LawTables& in) {
 void scaleContacts(const LawTables& in) {
     if (in.scale == 1) return;
     for (ContactLaw* law : {&in.c.dosingLaw, &in.c.settlingLaw})
-        for (ContactParameters& p : law->pairs) scaleStress(p, in.scale);
+        for (ContactParameters& p : law->pairs) normalLaw(p).scaleStress(p, in.scale);
     in.c.derivations.push_back(
         fmt::format("contact: the parameters are those of grains; spheres {0:.6g} times as large have springs and "
                     "surface energies {0:.6g} times, dashpots and pull-off forces {1:.6g} times as large",
@@ -165,22 +179,23 @@ void scaleContacts(const LawTables& in) {
 void readContact(CaseReader& reader, Section& root, const MaterialTables& materials, Case& c) {
     Section& contact = root.requiredTable("contact");
     const bool user = namesFile(contact, contact.node("law"));
-    const auto law = user ? NormalLaw::User : static_cast<NormalLaw>(contact.choice("law").value_or(0));
+    const Law& law = user ? normalLaw(NormalLaw::User) : *laws()[contact.choice("law").value_or(0)];
     c.dosingLaw.rollingLever = static_cast<RollingLever>(contact.choice("rolling_lever").value_or(0));
     c.world.maxOverlapRatio = contact.number("max_overlap_ratio");
     c.dosingLaw.pairs.resize(int(c.world.materials.size()));
     checkPairTables(reader, contact, c.world);
-    const double scale = readScaling(reader, contact, law, c);
+    const double scale = readScaling(reader, contact, law.kind(), c);
     const LawTables in{reader, tablesOf(reader, contact, c.world), root.table("settle"), materials, c, scale};
     std::vector<Section*> sections;
     for (const PairSection& p : in.pairs) sections.push_back(p.section);
     if (!user) refuseUserLaw(reader, sections);
-    if (law == NormalLaw::User)
+    refuseOtherLaws(in, law);
+    if (user)
         readUser(in);
-    else if (law == NormalLaw::Luding)
-        readLuding(in);
-    else
+    else if (law.fromModuli())
         readElastic(in, law);
+    else
+        readLuding(in);
     scaleContacts(in);
     readFrictionLimits(in);
 }

@@ -1,5 +1,7 @@
-// The contacts of spheres whose materials have moduli: Hertz-Mindlin, EEPA, JKR.
-#include "host/model/normal_law.h"
+// The contacts of spheres whose materials have moduli.
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
+#include "host/law/jkr.h"
 #include "host/model/read_laws.h"
 
 namespace vkdose {
@@ -11,30 +13,14 @@ struct StatedContact {
     ContactParameters rest;  ///< friction, the ratios and what EEPA and JKR have beside
 };
 
-constexpr double kSteepest = 10;  ///< largest exponent of EEPA's adhesive branch
-
-/// What EEPA has beside the elastic law.
-void checkEepaClass(CaseReader& reader, Section& section, const ContactParameters& p) {
-    if (p.plasticityRatio >= 1 && section.has("plasticity_ratio"))
-        reader.fault(section.path("plasticity_ratio"), "lets nothing of the overlap spring back",
-                     "give a number >= 0 and < 1, 0.5 for unloading twice as stiff as loading");
-    if (p.adhesionExponent < 1 && section.has("adhesion_exponent"))
-        reader.fault(section.path("adhesion_exponent"), "makes the pull end abruptly where the contact opens",
-                     "give a number >= 1, as a rule 1.5");
-    if (p.adhesionExponent > kSteepest && section.has("adhesion_exponent"))
-        reader.fault(section.path("adhesion_exponent"),
-                     "lets the force from which friction is counted grow without measure beyond the pole",
-                     fmt::format("give at most {}, as a rule 1.5", kSteepest));
-    if (p.surfaceEnergy == 0 || p.plasticityRatio > 0) return;
-    const char* remedy = "give a plasticity_ratio > 0, or a surface energy of 0";
-    if (section.has("surface_energy"))
-        reader.fault(section.path("surface_energy"),
-                     "acts on flattened contacts, and with plasticity_ratio = 0 none is", remedy);
-    else if (section.has("plasticity_ratio"))
-        reader.fault(section.path("plasticity_ratio"),
-                     fmt::format("flattens no contact, and its surface_energy = {:.6g} acts on flattened ones alone",
-                                 p.surfaceEnergy),
-                     remedy);
+/// Tells what does not go together, where the table gives one of its keys.
+void tellFaults(CaseReader& reader, Section& section, const Law& law, const ContactParameters& p) {
+    for (const ParameterFault& fault : law.faultsOf(p))
+        for (const ParameterFault::At& at : fault.at) {
+            if (!section.has(at.key)) continue;
+            reader.fault(section.path(at.key), at.problem, fault.remedy);
+            break;
+        }
 }
 
 /// Reads the moduli that stand in [contact], [contact.wall] and [contact.coil]: those of the material on the other
@@ -73,66 +59,42 @@ std::vector<Elasticity> allModuli(const LawTables& in) {
 
 /// A pair of two names has no moduli of its own.
 void refuseModuli(CaseReader& reader, Section& section) {
-    for (const char* key : kElasticKeys) {
+    for (const char* key : {"youngs_modulus", "poisson_ratio"}) {
         section.know(key);
         if (section.has(key))
             reader.fault(section.path(key), "is of a material, not of a pair", "give it in [[material]]");
     }
 }
 
-constexpr MixedKey<ContactParameters> kMixed[] = {
-    {"friction", &ContactParameters::mu},
-    {"rolling_friction", &ContactParameters::muR},
-    {"kr_over_k", &ContactParameters::kr},
-    {"damping_r_ratio", &ContactParameters::gammaR},
-    {"torsion_friction", &ContactParameters::muTo},
-    {"kto_over_k", &ContactParameters::kTo},
-    {"damping_to_ratio", &ContactParameters::gammaTo},
-};
-constexpr MixedKey<ContactParameters> kMixedAdhesion[] = {{"surface_energy", &ContactParameters::surfaceEnergy}};
-constexpr MixedKey<ContactParameters> kMixedPlastic[] = {
-    {"plasticity_ratio", &ContactParameters::plasticityRatio},
-    {"pull_off_force", &ContactParameters::constantPull},
-    {"adhesion_exponent", &ContactParameters::adhesionExponent},
-};
-
-/// The keys that a pair has under a law, but for the restitution.
-std::vector<MixedKey<ContactParameters>> keysOf(NormalLaw law) {
-    std::vector<MixedKey<ContactParameters>> keys(std::begin(kMixed), std::end(kMixed));
-    if (law == NormalLaw::HertzMindlin) return keys;
-    keys.insert(keys.end(), std::begin(kMixedAdhesion), std::end(kMixedAdhesion));
-    if (law == NormalLaw::Eepa) keys.insert(keys.end(), std::begin(kMixedPlastic), std::end(kMixedPlastic));
-    return keys;
-}
-
-StatedContact mixture(const StatedContact& a, const StatedContact& b, NormalLaw law) {
+StatedContact mixture(const StatedContact& a, const StatedContact& b, const Law& law) {
     StatedContact mixed;
     mixed.restitution = geometricMean(a.restitution, b.restitution);
-    for (const auto& key : keysOf(law)) mixed.rest.*key.member = geometricMean(a.rest.*key.member, b.rest.*key.member);
+    for (const auto& key : parametersOf(law))
+        mixed.rest.*key.member = geometricMean(a.rest.*key.member, b.rest.*key.member);
     return mixed;
 }
 
-StatedContact readClass(CaseReader& reader, Section& section, const StatedContact* parent, NormalLaw law) {
+StatedContact readClass(CaseReader& reader, Section& section, const StatedContact* parent, const Law& law) {
     StatedContact s;
     s.restitution =
         section.number("restitution", parent != nullptr ? std::optional(parent->restitution) : std::nullopt);
     if ((s.restitution == 0 || s.restitution > 1) && section.has("restitution"))
         reader.fault(section.path("restitution"), "is no share of a speed that spheres rebound with",
                      "give a number > 0 and <= 1");
-    for (const auto& key : keysOf(law))
+    for (const auto& key : parametersOf(law))
         s.rest.*key.member =
             section.number(key.name, parent != nullptr ? std::optional(parent->rest.*key.member) : std::nullopt);
-    if (law == NormalLaw::Eepa) checkEepaClass(reader, section, s.rest);
+    tellFaults(reader, section, law, s.rest);
     return s;
 }
 
 /// What there is to tell of a pair.
 std::string derivationOf(const LawTables& in, const PairSection& pair, const StatedContact& s,
-                         const ContactParameters& p, NormalLaw law) {
+                         const ContactParameters& p, const Law& law) {
     if (!pair.isNamed()) return "";
     std::string rest;
     if (pair.stated.source == PairSource::Mixture) {
-        rest = mixedWords(pair, s.rest, keysOf(law));
+        rest = mixedWords(pair, s.rest, parametersOf(law));
         if (!pair.section->has("restitution"))
             rest = fmt::format("restitution = {:.6g}{}{}", s.restitution, rest.empty() ? "" : ", ", rest);
         if (!rest.empty()) rest += ": " + meansOf(in, pair, "geometric");
@@ -145,24 +107,13 @@ std::string derivationOf(const LawTables& in, const PairSection& pair, const Sta
 
 }  // namespace
 
-void readElastic(const LawTables& in, NormalLaw law) {
+void readElastic(const LawTables& in, const Law& law) {
     CaseReader& reader = in.reader;
     Case& c = in.c;
-    for (const PairSection& p : in.pairs) {
-        refuseKeys(reader, *p.section, kLudingKeys, "luding");
-        if (!p.isNamed()) refuseKeys(reader, *p.section, {"derived"}, "luding");
-        if (law != NormalLaw::Eepa) refuseKeys(reader, *p.section, kPlasticKeys, "eepa");
-        if (law == NormalLaw::HertzMindlin) refuseKeys(reader, *p.section, kAdhesiveKeys, "jkr");
+    for (const PairSection& p : in.pairs)
         if (p.isNamed()) refuseModuli(reader, *p.section);
-        refusePairKeys(reader, p);
-    }
-    refuseKeys(reader, in.contact(), {"soften"}, "luding");
-    refuseKeys(reader, in.settle, {"kc_over_k", "wall_kc_over_k", "coil_kc_over_k", "elastic"}, "luding");
     const double damping = in.settle.number("damping_factor");
     const std::vector<Elasticity> moduli = allModuli(in);
-    const auto between = law == NormalLaw::Eepa  ? elastoPlasticAdhesive
-                         : law == NormalLaw::Jkr ? elasticAdhesive
-                                                 : hertzMindlin;
     std::vector<StatedContact> stated(in.size());
     for (const PairSection& p : in.pairs) {
         const auto [a, b] = p.stated.pair;
@@ -173,7 +124,7 @@ void readElastic(const LawTables& in, NormalLaw law) {
         StatedContact& s = stated[p.index()];
         s = readClass(reader, *p.section, p.stated.source == PairSource::None ? nullptr : &parent, law);
         ContactParameters& made = c.dosingLaw.of(p.stated.pair);
-        made = between(moduli[std::size_t(a)], moduli[std::size_t(b)], s.restitution, s.rest);
+        made = ofModuli(law.kind(), moduli[std::size_t(a)], moduli[std::size_t(b)], s.restitution, s.rest);
         tell(in, p, derivationOf(in, p, s, made, law));
     }
     c.settlingLaw = c.dosingLaw;

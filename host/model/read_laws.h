@@ -5,8 +5,10 @@
 
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "host/law/law.h"
 #include "host/model/case_sections.h"
 #include "host/model/contact_pairs.h"
 
@@ -38,18 +40,9 @@ struct LawTables {
     std::size_t size() const { return PairTable::index({int(c.world.materials.size()), 0}); }
 };
 
-inline constexpr std::initializer_list<const char*> kLudingKeys{
-    "k",         "contact_duration_s", "overlap_under_bed", "k1_over_k",         "kc_over_k", "bond_number",
-    "bond_load", "plasticity_depth",   "damping",           "restitution_speed", "kt_over_k", "damping_t_ratio"};
-inline constexpr std::initializer_list<const char*> kElasticKeys{"youngs_modulus", "poisson_ratio"};
-inline constexpr std::initializer_list<const char*> kPlasticKeys{"plasticity_ratio", "pull_off_force",
-                                                                 "adhesion_exponent"};
-inline constexpr std::initializer_list<const char*> kAdhesiveKeys{"surface_energy"};
-
 /// Tells of keys that belong to another law than the case's.
-void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<const char*> keys, const char* law);
-/// The same for keys of a pair that only Luding's law has.
-void refusePairKeys(CaseReader& reader, const PairSection& pair);
+void refuseKeys(CaseReader& reader, Section& section, std::initializer_list<std::string_view> keys,
+                std::string_view law);
 
 /// Puts words of how a pair came to its values into the resolved case, and among what is told. A resolved case that has
 /// such words keeps them.
@@ -62,9 +55,12 @@ std::string meansOf(const LawTables& in, const PairSection& pair, const char* ki
 /// A key of a pair that two powders mix, and its member of T.
 template <class T>
 struct MixedKey {
-    const char* name;
+    std::string_view name;
     double T::*member;
 };
+
+/// The keys of a pair whose values are parameters as they stand: those that all laws have, then those of the law.
+std::vector<MixedKey<ContactParameters>> parametersOf(const Law& law);
 
 /// Those keys that the table of the pair does not give, with their values: "friction = 0.3, kr_over_k = 0.286".
 template <class T, class Keys>
@@ -78,6 +74,6 @@ std::string mixedWords(const PairSection& pair, const T& values, const Keys& key
 
 void readLuding(const LawTables& in);
 /// The laws of spheres whose materials have moduli.
-void readElastic(const LawTables& in, NormalLaw law);
+void readElastic(const LawTables& in, const Law& law);
 
 }  // namespace vkdose

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "host/law/law.h"
 #include "host/model/bed_weight.h"
 #include "host/model/contact_targets.h"
 #include "host/model/powders.h"
 #include "host/model/read_laws.h"
-#include "host/model/restitution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
@@ -265,12 +265,6 @@ std::vector<double> settlingAdhesion(const LawTables& in, const std::vector<Stat
 void readLuding(const LawTables& in) {
     CaseReader& reader = in.reader;
     Case& c = in.c;
-    for (const PairSection& p : in.pairs) {
-        refuseKeys(reader, *p.section, kElasticKeys, "hertz-mindlin");
-        refuseKeys(reader, *p.section, kPlasticKeys, "eepa");
-        refuseKeys(reader, *p.section, kAdhesiveKeys, "jkr");
-    }
-    for (const auto& [material, table] : in.materials) refuseKeys(reader, *table, kElasticKeys, "hertz-mindlin");
     const std::vector<double> radii = meanRadii(in);
     std::vector<Stated> stated(in.size());
     std::vector<Ratios> met(in.size());  // with what the targets led to

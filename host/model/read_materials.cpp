@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "host/core/closest_word.h"
 #include "host/core/printable.h"
 #include "host/model/case_sections.h"
-#include "host/model/closest_word.h"
 #include "host/model/named_file.h"
 #include "host/model/particle_list.h"
 #include "host/model/powders.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "host/core/closest_word.h"
 #include "host/model/case_sections.h"
-#include "host/model/closest_word.h"
 
 namespace vkdose {
 namespace {

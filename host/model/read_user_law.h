@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
+#include "host/law/user_law.h"
 #include "host/model/case_reader.h"
-#include "host/model/user_law.h"
 
 namespace vkdose {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "host/model/checks.h"
-#include "host/model/normal_law.h"
 #include "host/model/rows.h"
 
 namespace vkdose {

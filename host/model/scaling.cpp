@@ -6,18 +6,6 @@
 
 namespace vkdose {
 
-void scaleStress(ContactParameters& p, double s) {
-    p.surfaceEnergy *= s;
-    p.constantPull *= s * s;
-    if (p.law != NormalLaw::Luding) return;  // the others count springs and dashpots in ratios to what moduli give
-    for (double ContactParameters::*spring : {&ContactParameters::k1, &ContactParameters::k2Max, &ContactParameters::kc,
-                                              &ContactParameters::kt, &ContactParameters::kr, &ContactParameters::kTo})
-        p.*spring *= s;
-    for (double ContactParameters::*dashpot : {&ContactParameters::gamma, &ContactParameters::gammaT,
-                                               &ContactParameters::gammaR, &ContactParameters::gammaTo})
-        p.*dashpot *= s * s;
-}
-
 double readScaling(CaseReader& reader, Section& contact, NormalLaw law, const Case& c) {
     if (contact.choice("scaling").value_or(0) == 0 || c.filling.list) return 1;
     const double s = c.filling.size.scaleUp;

@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/core/closest_word.h"
 #include "host/model/case_reader.h"
-#include "host/model/closest_word.h"
 
 namespace vkdose {
 namespace {

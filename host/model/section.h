@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "host/core/key.h"
 #include "host/core/vec.h"
 #include "host/model/case_tree.h"
-#include "host/model/key.h"
 
 namespace vkdose {
 

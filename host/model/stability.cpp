@@ -7,13 +7,12 @@
 #include <variant>
 
 #include "host/core/vec.h"
+#include "host/law/law.h"
 #include "host/model/body_form.h"
 #include "host/model/body_mesh.h"
 #include "host/model/case.h"
-#include "host/model/normal_law.h"
 #include "host/model/particles.h"
 #include "host/model/powders.h"
-#include "host/model/restitution.h"
 #include "host/model/size_distribution.h"
 
 namespace vkdose {

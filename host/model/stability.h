@@ -56,7 +56,7 @@ struct ContactMode {
 std::vector<ContactMode> contactModes(const World& world, const ContactLaw& law, const PowderSizes& sizes);
 
 /// The parameters of a contact at that overlap, as linear springs and dashpots between the spheres a and b [m], b =
-/// infinity for a wall (normal_law.h). `mass` is the reduced one [kg].
+/// infinity for a wall (host/law/law.h). `mass` is the reduced one [kg].
 ContactParameters stiffest(const ContactParameters& p, double mass, double a, double b, double maxOverlapRatio);
 
 /// The modes of a case under both of its laws: damping may be stronger while the powder settles.

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "host/core/memory_limit.h"
-#include "host/model/law_checks.h"
+#include "host/law/law.h"
+#include "host/law/law_checks.h"
 #include "host/model/law_in_doubles.h"
-#include "host/model/restitution.h"
 #include "host/model/stability.h"
 
 namespace vkdose {
@@ -75,11 +75,6 @@ std::optional<LawInDoubles> inDoubles(const UserLaw& law) {
 
 void setLawTrial(LawTrial trial) {
     trialOfProcess() = std::move(trial);
-}
-
-double mostStiffness(const ContactParameters& p) {
-    constexpr double kFactor = 1000;
-    return p.kMost > 0 ? kFactor * p.kMost : std::numeric_limits<double>::infinity();
 }
 
 void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {

@@ -44,8 +44,4 @@ void setLawTrial(LawTrial trial);
 /// faults of what it answers; writes stiffness and damping into the case's contact parameters.
 void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes);
 
-/// The largest stiffness that a run takes from a user's law [N/m]. The trial asked at some points only. Infinite
-/// without a trial.
-double mostStiffness(const ContactParameters& p);
-
 }  // namespace vkdose

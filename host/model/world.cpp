@@ -6,6 +6,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "host/law/law.h"
+
 namespace vkdose {
 
 std::vector<Vec3> imageShifts(const Vec3& period) {
@@ -41,6 +43,13 @@ std::vector<MaterialPair> occurringPairs(const World& world) {
             if (!listed) pairs.push_back({powder, other});
         }
     return pairs;
+}
+
+double longestReach(const World& world, const ContactLaw& law, double largest) {
+    double longest = 0;
+    for (const MaterialPair& pair : occurringPairs(world))
+        longest = std::max(longest, reachOf(law.of(pair), 2 * largest));
+    return longest;
 }
 
 void checkMaterials(const World& world, const ContactLaw& law, const Particles& particles) {

@@ -103,6 +103,11 @@ std::vector<int> powdersOf(const World& world);
 /// The pairs of materials whose contacts can occur: of two powders, and of a powder with a wall, a body or the coil.
 /// Ascending by the powder, then by the other; a pair of two powders is there once.
 std::vector<MaterialPair> occurringPairs(const World& world);
+
+/// The longest reach of any contact that can occur, of spheres no larger than `largest` [m], also with walls.
+double longestReach(const World& world, const ContactLaw& law, double largest);
+/// What a backend says of a law whose contacts reach farther than those of the law that was loaded.
+inline constexpr const char* kReachesFarther = "the new law of the contacts reaches farther than the loaded one";
 /// Throws std::logic_error if the law has no parameters for a material of the world, if a particle is of no powder of
 /// it, or if there are more materials than a backend holds: whoever made them has not checked them.
 void checkMaterials(const World& world, const ContactLaw& law, const Particles& particles);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/model/key.h"
+#include "host/core/key.h"
 
 namespace vkdose {
 

@@ -13,7 +13,7 @@
 #include "host/analysis/heap.h"
 #include "host/analysis/shear.h"
 #include "host/core/csv_table.h"
-#include "host/model/key.h"
+#include "host/core/key.h"
 #include "host/model/powders.h"
 #include "host/output/figure_words.h"
 #include "host/output/frames.h"

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "host/core/error.h"
-#include "host/model/key.h"
+#include "host/core/key.h"
 #include "host/output/run_folder.h"
 #include "host/sim/runner.h"
 

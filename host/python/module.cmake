@@ -14,7 +14,7 @@ message(STATUS "vkdose._core: built for Python ${Python_VERSION}")
 
 # The module holds the rooms that a run takes, so they must not depend on the place where they are loaded. Names that
 # nobody outside sees keep that from costing speed.
-foreach(room core geometry glsl model sim reference vk vulkan analysis output play volk)
+foreach(room core geometry law glsl model sim reference vk vulkan analysis output play volk)
   set_target_properties(vkdose_${room} PROPERTIES POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden
                                                   CXX_VISIBILITY_PRESET hidden
                                                   VISIBILITY_INLINES_HIDDEN ON)

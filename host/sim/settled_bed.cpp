@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/model/normal_law.h"
-#include "host/model/pull_off.h"
+#include "host/law/law.h"
 
 namespace vkdose {
 
@@ -26,9 +25,7 @@ SettledBed settledBed(const Case& c, double time, const Particles& particles, co
         bed.pullOff.push_back(pullOff(law, reduced, contact.maxOverlap) / weight);
         // A contact is listed where it touched in the last step, and may have parted by its end.
         bed.overlap.push_back(std::max(0.0, a + b - apart) / smaller);
-        // JKR's memory counts from the overlap at which the contact is lost.
-        const double lost = law.law == NormalLaw::Jkr ? reachOf(law, reduced) : 0;
-        bed.largestOverlap.push_back((contact.maxOverlap - lost) / smaller);
+        bed.largestOverlap.push_back(normalLaw(law).largestOverlap(law, reduced, contact.maxOverlap) / smaller);
     }
     return bed;
 }

@@ -2,7 +2,7 @@
 // Every key of a study file. Its readers (study.cpp, calibration_aim.cpp) take units, bounds, words and defaults from
 // here.
 
-#include "host/model/key.h"
+#include "host/core/key.h"
 
 namespace vkdose {
 

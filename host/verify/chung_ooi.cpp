@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
 #include "host/model/stability.h"
 #include "host/verify/cases.h"
 #include "host/verify/impact.h"

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "host/model/normal_law.h"
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
 #include "host/model/stability.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
 #include "host/model/stability.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/model/normal_law.h"
+#include "host/law/jkr.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 

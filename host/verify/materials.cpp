@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "host/model/user_law.h"
+#include "host/law/user_law.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 

@@ -14,6 +14,8 @@ struct NormalAnswer {
     float kept;     // share of their length that the springs keep (springsKept)
 };
 
+NormalAnswer noAnswer() { return NormalAnswer(0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), vec3(0.0), 1.0); }
+
 /// Share of their length that the springs of sliding, rolling and torsion keep when the contact's stiffness goes from
 /// `was`, 0 of a new contact, to `is` [N/m]. Where it grows they get shorter, so that they exert what they did. Where
 /// it falls they keep their length. Neither gives them energy (Thornton, Cummins and Cleary 2013).

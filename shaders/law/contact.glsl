@@ -3,46 +3,13 @@
 #define VKDOSE_LAW_CONTACT_GLSL
 
 #ifdef USER_LAW
-#include "law/user_functions.glsl"
+#include "law/user.glsl"
 #else
 #include "law/normal.glsl"
 #endif
 #include "law/rolling.glsl"
 #include "law/sliding.glsl"
 #include "law/torsion.glsl"
-
-struct History {
-    vec4 slidingMax;      // xyz: sliding spring [m]; w: delta_max [m]
-    vec4 rollingTorsion;  // xyz: rolling spring [m]; w: torsion spring [m]
-#ifdef USER_LAW
-    vec4 own[2];  // what the user's law remembers; the last: its stiffness in the last step [N/m]
-#else
-    float last;  // overlap of the last step under EEPA [m]; 0: there was none
-#endif
-};
-
-History noHistory() {
-    History h;
-    h.slidingMax = vec4(0.0);
-    h.rollingTorsion = vec4(0.0);
-#ifdef USER_LAW
-    h.own[0] = vec4(0.0);
-    h.own[1] = vec4(0.0);
-#else
-    h.last = 0.0;
-#endif
-    return h;
-}
-
-struct Meeting {
-    vec3 normal;    // from j to i
-    float overlap;  // [m], > 0
-    float reduced;  // 2 a_i a_j/(a_i + a_j), wall 2 a_i [m]
-    float mass;     // reduced mass [kg]
-    vec3 velocity;  // of i relative to j at the contact point [m/s]
-    vec3 spin;      // omega_i - omega_j [rad/s]
-    float share;    // how much the overlap falls per way along the normal (geometry/features.h)
-};
 
 struct Response {
     vec3 force;                 // on i [N]; on j the opposite
@@ -52,18 +19,10 @@ struct Response {
     bvec3 slips;                // sliding, rolling, torsion
 };
 
-#ifdef USER_LAW
-#include "law/user.glsl"
-#endif
-
 Response contactResponse(ContactParams p, uvec4 choices, Meeting m, float dt, inout History h) {
     float vn = dot(m.velocity, m.normal);
     vec3 vt = m.velocity - m.normal * vn;
-#ifdef USER_LAW
-    NormalAnswer answer = userAnswer(p, m, -m.share * vn, h);
-#else
-    NormalAnswer answer = normalAnswer(p, m.overlap, m.reduced, m.mass, h.slidingMax.w, h.last);
-#endif
+    NormalAnswer answer = normalAnswer(p, m, -m.share * vn, h);
     float f = answer.force;
     float damping = -answer.damping * m.share * vn;
     float fn = m.share * (f + damping);

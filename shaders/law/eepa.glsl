@@ -32,21 +32,19 @@ float eepaPull(ContactParams p, EepaPath path, float d) {
     return path.pull > 0.0 ? path.pull * pow(d / path.pole, p.damping.w) : 0.0;
 }
 
-/// `mass` is the reduced one [kg]. All but the normal force are those of Hertz's line at this overlap. `last` is the
-/// overlap of the last step, 0 if there was none.
-NormalAnswer eepaAnswer(ContactParams p, float overlap, float reduced, float mass, inout float maxOverlap,
-                        inout float last) {
-    NormalAnswer answer = hertzAnswer(p, overlap, reduced, mass, last);
-    maxOverlap = max(maxOverlap, overlap);
-    EepaPath path = eepaPath(p, reduced, maxOverlap);
-    float d = threeHalves(overlap), pull = eepaPull(p, path, d);
+/// All but the normal force are those of Hertz's line at this overlap.
+NormalAnswer eepaAnswer(ContactParams p, Meeting m, inout History h) {
+    NormalAnswer answer = hertzAnswer(p, m.overlap, m.reduced, m.mass, h.last);
+    h.slidingMax.w = max(h.slidingMax.w, m.overlap);
+    EepaPath path = eepaPath(p, m.reduced, h.slidingMax.w);
+    float d = threeHalves(m.overlap), pull = eepaPull(p, path, d);
     answer.force = p.friction.w + (d < path.pole ? -pull : path.unloading * (d - path.flattened));
     answer.pull = pull - p.friction.w;
     return answer;
 }
 
 /// Area under the path from 0 to the overlap [J].
-float eepaEnergy(ContactParams p, float overlap, float reduced, float maxOverlap) {
+float eepaStored(ContactParams p, float force, float overlap, float reduced, float maxOverlap) {
     EepaPath path = eepaPath(p, reduced, maxOverlap);
     float d = threeHalves(overlap), share = 1.0 / (1.5 * p.damping.w + 1.0);
     if (d < path.pole) return overlap * (p.friction.w - share * eepaPull(p, path, d));
@@ -56,9 +54,17 @@ float eepaEnergy(ContactParams p, float overlap, float reduced, float maxOverlap
     return overlap * p.friction.w - path.pull * (share * least + beyond) + steep;
 }
 
-/// Area under Hertz's line and f0 from 0 to the overlap, where they bear `force` [J].
-float eepaFirstWork(ContactParams p, float force, float overlap) {
-    return overlap * (0.4 * force + 0.6 * p.friction.w);
+float eepaReach(ContactParams p, float reduced) { return 0.0; }
+float eepaStiffness(ContactParams p, float overlap, float reduced) { return hertzStiffness(p, overlap, reduced); }
+float eepaGrowth(ContactParams p, float before, float overlap, float reduced) { return sqrt(overlap / before); }
+/// The first touch presses along Hertz's line and f0. A contact that parts takes the path that its stored energy is the
+/// area of.
+float eepaLost(ContactParams p, NormalStep s, float reduced) {
+    precise float area = s.taken;
+    if (!s.touched) area = s.overlap * (0.4 * s.force + 0.6 * p.friction.w);
+    precise float lost = area - s.gained;
+    return s.touches ? lost : 0.0;
 }
+bool eepaAdheres(ContactParams p, float force, float overlap) { return false; }
 
 #endif

@@ -28,11 +28,7 @@ struct Work {
 
 /// Energy in the springs of sliding, rolling and torsion of a contact at this overlap [J].
 vec3 sliderEnergy(ContactParams p, float overlap, float reduced, History h) {
-#ifdef USER_LAW
-    vec3 springs = h.own[1].w * p.springs.xyz;
-#else
-    vec3 springs = springsAt(p, overlap, reduced);
-#endif
+    vec3 springs = springsAt(p, overlap, reduced, h);
     return 0.5 * vec3(springs.x * dot(h.slidingMax.xyz, h.slidingMax.xyz),
                       springs.y * dot(h.rollingTorsion.xyz, h.rollingTorsion.xyz),
                       springs.z * h.rollingTorsion.w * h.rollingTorsion.w);
@@ -40,11 +36,7 @@ vec3 sliderEnergy(ContactParams p, float overlap, float reduced, History h) {
 
 /// Energy in all springs of a contact that exerts `f`: normal, sliding, rolling, torsion [J].
 vec4 elasticEnergy(ContactParams p, float f, float overlap, float reduced, History h) {
-#ifdef USER_LAW
-    return vec4(userStored, sliderEnergy(p, overlap, reduced, h));
-#else
-    return vec4(storedEnergy(p, f, overlap, reduced, h.slidingMax.w), sliderEnergy(p, overlap, reduced, h));
-#endif
+    return vec4(storedEnergy(p, f, overlap, reduced, h), sliderEnergy(p, overlap, reduced, h));
 }
 
 /// Energy that is gone with a contact which exerted `e` [J].
@@ -54,21 +46,6 @@ float storedIn(ContactParams p, Exerted e, float reduced, History h) {
 
 /// Share of its energy that a spring loses whose stiffness grows by this factor, or falls.
 float shareLost(float factor) { return 1.0 - min(factor, 1.0 / factor); }
-
-/// What the springs of sliding, rolling and torsion of a contact that `goesOn` lose because the overlap changes their
-/// stiffness (springsKept) [J].
-vec3 lostByStiffness(ContactParams p, Exerted before, Exerted now, float reduced, vec3 stored, bool goesOn) {
-#ifdef USER_LAW
-    return goesOn ? stored * shareLost(userGrowth) : vec3(0.0);  // a law need not say anything of a contact that parts
-#else
-    if (follows(p, kLawJkr)) {
-        float was = jkrStiffness(p, before.rest.w, reduced), is = jkrStiffness(p, now.rest.w, reduced);
-        return goesOn ? stored * shareLost(is / was) : vec3(0.0);
-    }
-    if (before.rest.w <= 0.0 || now.rest.w <= 0.0) return vec3(0.0);
-    return stored * shareLost(sqrt(now.rest.w / before.rest.w));
-#endif
-}
 
 /// Work that the force `e` takes in half a step `dt` [s] from a contact that moves with `velocity`, seen where the
 /// force acted, and `spin` (both of i relative to j).
@@ -87,26 +64,22 @@ Book bookContact(Exerted before, Exerted now, bool known, bool touching, vec4 st
                  ContactParams p, float reduced, bvec3 slips) {
     vec4 gained = stored - storedBefore;
     float taken = a.hysteretic + b.hysteretic;
-    float loss = taken - gained.x;
-#ifdef USER_LAW
-    bool adhesive = false, changes = true;  // what a user's law took and did not store, it lost: nobody else can say
-#else
-    if (!known) loss = workOfFirstTouch(p, now.normal.w, now.rest.w) - gained.x;
-    if (!touching) loss = lossOfParting(p, before.normal.w, before.rest.w, -gained.x);
-    if (!losesEnergy(p)) loss = 0.0;
-    if (follows(p, kLawJkr)) loss = known ? 0.0 : jkrLossOfTouch(p, reduced);
+    NormalStep s =
+        NormalStep(known, touching, before.normal.w, before.rest.w, now.normal.w, now.rest.w, taken, gained.x);
+    float loss = lostByLaw(p, s, reduced);
     Exerted last = now;
     if (!touching) last = before;
-    bool adhesive = onAdhesiveBranch(p, last.normal.w, last.rest.w), changes = stiffens(p);
-#endif
+    bool adhesive = adheres(p, last.normal.w, last.rest.w);
 
     vec3 spent = a.sliders + b.sliders - gained.yzw;
     vec3 slipping = vec3(touching ? slips : bvec3(true));  // when a contact opens its springs snap
     vec3 friction = spent * slipping;
     float sticking = dot(spent, vec3(1.0) - slipping);
-    if (changes) {  // friction has what goes to no motion
-        vec3 lost =
-            lostByStiffness(p, before, now, reduced, storedBefore.yzw, known && touching) * (vec3(1.0) - slipping);
+    // Where the overlap changes the stiffness the springs lose energy (springsKept). Friction has what goes to no
+    // motion.
+    if (stiffens(p) && known && touching) {
+        float share = shareLost(stiffnessGrowth(p, before.rest.w, now.rest.w, reduced));
+        vec3 lost = storedBefore.yzw * share * (vec3(1.0) - slipping);
         friction += lost;
         sticking -= lost.x + lost.y + lost.z;
     }

@@ -7,6 +7,7 @@
 #define VKDOSE_LAW_JKR_GLSL
 
 #include "law/answer.glsl"
+#include "law/meeting.glsl"
 
 /// A device's pow is exact to some digits only; a turn of Newton's rule adds the others.
 float cubeRoot(float x) {
@@ -56,31 +57,39 @@ float jkrStiffness(ContactParams p, float overlap, float reduced) {
     return 2.0 * p.normal.x * jkrPatch(p, overlap, reduced).radius;
 }
 
-/// `mass` is the reduced one [kg]. The memory is how much the overlap is above the one at which the contact is lost
-/// [m].
-NormalAnswer jkrAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory) {
-    JkrPatch at = jkrPatch(p, overlap, reduced);
-    float was = memory > 0.0 ? 2.0 * p.normal.x * jkrPatchAt(p, memory, reduced).radius : 0.0;
-    memory = max(at.room, 1e-30);  // above 0 while there is a contact
-    float stiffness = 2.0 * p.normal.x * at.radius, damping = p.normal.y * sqrt(stiffness * mass);
-    float c = jkrLast(p, reduced), square = c * c;
-    float pull = 24.0 * p.normal.x * square * (square * square / (0.5 * reduced));  // 2 Fc
+/// The memory is how much the overlap is above the one at which the contact is lost [m].
+NormalAnswer jkrAnswer(ContactParams p, Meeting m, inout History h) {
+    JkrPatch at = jkrPatch(p, m.overlap, m.reduced);
+    float memory = h.slidingMax.w;
+    float was = memory > 0.0 ? 2.0 * p.normal.x * jkrPatchAt(p, memory, m.reduced).radius : 0.0;
+    h.slidingMax.w = max(at.room, 1e-30);  // above 0 while there is a contact
+    float stiffness = 2.0 * p.normal.x * at.radius, damping = p.normal.y * sqrt(stiffness * m.mass);
+    float c = jkrLast(p, m.reduced), square = c * c;
+    float pull = 24.0 * p.normal.x * square * (square * square / (0.5 * m.reduced));  // 2 Fc
     return NormalAnswer(2.0 * stiffness * at.depth * (1.0 / 3.0 - 2.0 * cube(at.ratio)), damping, pull,
                         stiffness * p.springs.xyz, damping * p.damping.xyz, vec3(0.0), springsKept(was, stiffness));
 }
 
 /// Area under the path from where the contact is lost to the overlap [J].
-float jkrEnergy(ContactParams p, float overlap, float reduced) {
+float jkrStored(ContactParams p, float force, float overlap, float reduced, float memory) {
     JkrPatch at = jkrPatch(p, overlap, reduced);
     float x = cube(at.ratio);
     float area = 1.0 / 30.0 - x * (1.0 / 3.0 - 0.5 * x) - 0.2 * x * x * x * at.ratio;
     return 16.0 * p.normal.x * at.radius * at.depth * at.depth * area;
 }
 
-/// What the spheres lose as they snap into contact: the energy at touch, which comes from no motion [J].
-float jkrLossOfTouch(ContactParams p, float reduced) {
+float jkrGrowth(ContactParams p, float before, float overlap, float reduced) {
+    float was = jkrStiffness(p, before, reduced), is = jkrStiffness(p, overlap, reduced);
+    return is / was;
+}
+
+/// The spheres lose as they snap into contact, and nowhere else: the energy at touch, which comes from no motion.
+float jkrLost(ContactParams p, NormalStep s, float reduced) {
+    if (s.touched) return 0.0;
     float c = jkrLast(p, reduced), square = c * c, depth = square * square / (0.5 * reduced);
     return 16.0 * 2.1048813 * p.normal.x * square * depth * depth;  // 0.3 * 4^(4/3) + 1/5
 }
+
+bool jkrAdheres(ContactParams p, float force, float overlap) { return true; }
 
 #endif

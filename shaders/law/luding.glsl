@@ -3,6 +3,7 @@
 #define VKDOSE_LAW_LUDING_GLSL
 
 #include "law/answer.glsl"
+#include "law/meeting.glsl"
 
 /// `overlap` delta > 0 [m], `reduced` = 2 a_i a_j / (a_i + a_j) [m] (wall: 2 a_i). `maxOverlap` is the history
 /// delta_max: raised while loading, pulled back on the adhesive branch. Returns f [N], repulsive positive.
@@ -26,9 +27,9 @@ float normalForce(ContactParams p, float overlap, float reduced, inout float max
     return f;
 }
 
-NormalAnswer ludingAnswer(ContactParams p, float overlap, float reduced, inout float maxOverlap) {
-    float f = normalForce(p, overlap, reduced, maxOverlap);
-    return NormalAnswer(f, p.damping.w, p.normal.z * overlap, p.springs.xyz, p.damping.xyz, p.damping.xyz, 1.0);
+NormalAnswer ludingAnswer(ContactParams p, Meeting m, inout History h) {
+    float f = normalForce(p, m.overlap, m.reduced, h.slidingMax.w);
+    return NormalAnswer(f, p.damping.w, p.normal.z * m.overlap, p.springs.xyz, p.damping.xyz, p.damping.xyz, 1.0);
 }
 
 /// Slope of the line on which a contact with this history unloads [N/m].
@@ -36,6 +37,24 @@ float unloadingStiffness(ContactParams p, float reduced, float maxOverlap) {
     float k1 = p.normal.x, range = p.normal.y - k1;
     if (range <= 0.0) return k1;
     return k1 + range * min(1.0, maxOverlap * range / (p.normal.y * p.normal.w * reduced));
+}
+
+float ludingReach(ContactParams p, float reduced) { return 0.0; }
+float ludingStored(ContactParams p, float force, float overlap, float reduced, float memory) {
+    return 0.5 * (force * force / unloadingStiffness(p, reduced, memory));
+}
+float ludingStiffness(ContactParams p, float overlap, float reduced) { return 1.0; }  // the springs have their own
+float ludingGrowth(ContactParams p, float before, float overlap, float reduced) { return 1.0; }
+float ludingLost(ContactParams p, NormalStep s, float reduced) {
+    precise float area = s.taken;
+    if (!s.touched) area = 0.5 * s.force * s.overlap;
+    if (!s.touches) area = -0.5 * s.forceBefore * s.overlapBefore;
+    precise float lost = area - s.gained;
+    return lost;
+}
+/// On the adhesive branch.
+bool ludingAdheres(ContactParams p, float force, float overlap) {
+    return force < 0.0 && force <= -p.normal.z * overlap;
 }
 
 #endif

@@ -1,4 +1,5 @@
-// The laws of the normal force. Which of them occur is known when a pipeline is made, so that the others cost nothing.
+// The laws of the normal force, each a file that answers the same questions (shared/laws.h lists them). Which of them
+// occur is known when a pipeline is made, so that the others cost nothing.
 #ifndef VKDOSE_LAW_NORMAL_GLSL
 #define VKDOSE_LAW_NORMAL_GLSL
 
@@ -15,7 +16,9 @@ bool follows(ContactParams p, uint law) {
 
 /// How far beyond touch a contact that has come about holds on [m]; grows with `reduced`.
 float reachOf(ContactParams p, float reduced) {
-    if (follows(p, kLawJkr)) return jkrReach(p, reduced);
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (reaches == 1 && follows(p, uint(number))) return name##Reach(p, reduced);
+#include "shared/laws.h"
     return 0.0;
 }
 
@@ -25,55 +28,62 @@ bool holds(ContactParams p, float overlap, float reduced, float memory) {
     return overlap > 0.0;
 }
 
-/// `overlap` > 0, or above -reachOf where the contact goes on, and `reduced` 2 a_i a_j / (a_i + a_j) (wall: 2 a_i) [m];
-/// `mass` the reduced mass [kg]. `memory` is the contact's history of one number [m], above 0 while there is a contact.
-/// `last` is the overlap of the last step, which only EEPA needs beside the memory.
-NormalAnswer normalAnswer(ContactParams p, float overlap, float reduced, float mass, inout float memory,
-                          inout float last) {
-    if (follows(p, kLawHertzMindlin)) return hertzAnswer(p, overlap, reduced, mass, memory);
-    if (follows(p, kLawEepa)) return eepaAnswer(p, overlap, reduced, mass, memory, last);
-    if (follows(p, kLawJkr)) return jkrAnswer(p, overlap, reduced, mass, memory);
-    return ludingAnswer(p, overlap, reduced, memory);
+/// The overlap of `m` is positive, or above -reachOf where the contact goes on. `h.slidingMax.w` is the law's memory of
+/// one number [m], above 0 while there is a contact. `speed` is that of approach; only a user's law asks for it.
+NormalAnswer normalAnswer(ContactParams p, Meeting m, float speed, inout History h) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (follows(p, uint(number))) return name##Answer(p, m, h);
+#include "shared/laws.h"
+    return noAnswer();
 }
 
-/// Energy that the normal direction gives back when the contact parts slowly [J]; `force` is the answer's [N]. Under
-/// EEPA and JKR the work of the pull counts too, so that it may be negative.
-float storedEnergy(ContactParams p, float force, float overlap, float reduced, float memory) {
-    if (follows(p, kLawHertzMindlin)) return 0.4 * force * overlap;
-    if (follows(p, kLawEepa)) return eepaEnergy(p, overlap, reduced, memory);
-    if (follows(p, kLawJkr)) return jkrEnergy(p, overlap, reduced);
-    return 0.5 * (force * force / unloadingStiffness(p, reduced, memory));
+/// Energy that the normal direction gives back when the contact parts slowly [J]; `force` is the answer's [N]. The work
+/// of a pull may count too, so that it may be negative.
+float storedEnergy(ContactParams p, float force, float overlap, float reduced, History h) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (follows(p, uint(number))) return name##Stored(p, force, overlap, reduced, h.slidingMax.w);
+#include "shared/laws.h"
+    return 0.0;
 }
 
 /// Whether the overlap makes sliding, rolling and torsion stiffer.
-bool stiffens(ContactParams p) { return follows(p, kLawHertzMindlin) || follows(p, kLawEepa) || follows(p, kLawJkr); }
+bool stiffens(ContactParams p) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (stiffens == 1 && follows(p, uint(number))) return true;
+#include "shared/laws.h"
+    return false;
+}
 
 /// Stiffness of sliding, rolling, torsion [N/m].
-vec3 springsAt(ContactParams p, float overlap, float reduced) {
-    if (follows(p, kLawJkr)) return jkrStiffness(p, overlap, reduced) * p.springs.xyz;
-    if (stiffens(p)) return hertzStiffness(p, overlap, reduced) * p.springs.xyz;
+vec3 springsAt(ContactParams p, float overlap, float reduced, History h) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (stiffens == 1 && follows(p, uint(number))) return name##Stiffness(p, overlap, reduced) * p.springs.xyz;
+#include "shared/laws.h"
     return p.springs.xyz;
 }
 
-/// Whether the law itself loses energy. What an elastic law loses is an error of the time step.
-bool losesEnergy(ContactParams p) { return !follows(p, kLawHertzMindlin); }
-
-/// Work that pressing a new contact to `overlap` takes, where it exerts `force` [J].
-float workOfFirstTouch(ContactParams p, float force, float overlap) {
-    if (follows(p, kLawEepa)) return eepaFirstWork(p, force, overlap);
-    return 0.5 * force * overlap;
+/// By which factor that stiffness has grown since the overlap `before`, of a contact that goes on.
+float stiffnessGrowth(ContactParams p, float before, float overlap, float reduced) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (follows(p, uint(number))) return name##Growth(p, before, overlap, reduced);
+#include "shared/laws.h"
+    return 1.0;
 }
 
-/// What a contact loses by law when it parts after it exerted `force` and stored `stored` [J].
-float lossOfParting(ContactParams p, float force, float overlap, float stored) {
-    if (follows(p, kLawEepa)) return 0.0;  // what it stored is the area of the path on which it parts
-    return -0.5 * force * overlap + stored;
+/// Energy that the law itself loses in a step [J]. What an elastic law loses is an error of the time step, and no loss.
+float lostByLaw(ContactParams p, NormalStep s, float reduced) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (follows(p, uint(number))) return name##Lost(p, s, reduced);
+#include "shared/laws.h"
+    return 0.0;
 }
 
-/// Whether what the law loses is adhesion's: on the adhesive branch of Luding's law, and always under JKR.
-bool onAdhesiveBranch(ContactParams p, float force, float overlap) {
-    if (follows(p, kLawJkr)) return true;
-    return follows(p, kLawLuding) && force < 0.0 && force <= -p.normal.z * overlap;
+/// Whether what the law loses is adhesion's.
+bool adheres(ContactParams p, float force, float overlap) {
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) \
+    if (follows(p, uint(number))) return name##Adheres(p, force, overlap);
+#include "shared/laws.h"
+    return false;
 }
 
 #endif

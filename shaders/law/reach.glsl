@@ -5,7 +5,7 @@
 
 #include "shared/layout.h"
 
-layout(constant_id = 9) const uint LAWS = 1u << kLawLuding;  // bit k: contacts of some class follow the law k
+layout(constant_id = 9) const uint LAWS = 1u;  // bit k: contacts of some class follow the law k (shared/laws.h)
 
 /// Whether any contact may hold on beyond touch. This is a function, as is joints() in shared/buffers.glsl.
 bool reaches() { return (LAWS & kReachingLaws) != 0u; }

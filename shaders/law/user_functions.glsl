@@ -1,7 +1,6 @@
-// A law of the normal force that a user wrote, in place of law/normal.glsl. The host puts its text in place of
-// law/user_text.glsl, every name of it behind the prefix User, and behind it the functions userParameters, userRecall,
-// userKeep, userDamping, userPull, userEnergy and userReach, which know what the law declares
-// (host/model/user_law.cpp).
+// The functions of a law of the normal force that a user wrote. The host puts its text in place of law/user_text.glsl,
+// every name of it behind the prefix User, and behind it the functions userParameters, userRecall, userKeep,
+// userDamping, userPull, userEnergy and userReach, which know what the law declares (host/law/user_law.cpp).
 #ifndef VKDOSE_LAW_USER_FUNCTIONS_GLSL
 #define VKDOSE_LAW_USER_FUNCTIONS_GLSL
 

@@ -83,7 +83,7 @@ const uint kOwnPart = 2u;
 #ifdef USER_LAW
 const uint kParts = kOwnPart + 2u;  // the last two are the memory of the user's law
 #else
-const uint kParts = kOwnPart + ((LAWS >> kLawEepa) & 1u);  // EEPA keeps the overlap of the last step
+const uint kParts = kOwnPart + ((LAWS & kOverlapKeepers) != 0u ? 1u : 0u);  // for the overlap of the last step
 #endif
 const uint kPlaceParts = kParts + 1u;                     // of a place on a body
 const uint kBodyHistory = kMaxBodyTouches * kPlaceParts;  // of a body slot

@@ -108,18 +108,21 @@ SHARED_CONST kEndingWalls = 16u;  // a bit beside those of the kinds: planes or 
 SHARED_CONST kLeverFull = 0u;
 SHARED_CONST kLeverHalf = 1u;
 
-SHARED_CONST kLawLuding = 0u;
-SHARED_CONST kLawHertzMindlin = 1u;
-SHARED_CONST kLawEepa = 2u;
-SHARED_CONST kLawJkr = 3u;
-SHARED_CONST kLawUser = 4u;         // of a file of the case's own (law/user.glsl)
-SHARED_CONST kLawKinds = 16u;       // more than there can be
+SHARED_CONST kLawUser = 4u;               // of a file of the case's own (law/user.glsl); the others are in laws.h
+SHARED_CONST kLawKinds = 16u;             // more than there can be
 SHARED_CONST kLimitAbsolute = kLawKinds;  // a bit beside the number of a law: friction is limited by the force's size
 SHARED_CONST kOwnParameters = 16u;  // most parameters of such a law; vkdose::kMostLawParameters
 SHARED_CONST kOwnMemories = 7u;     // most numbers that it remembers of a contact; vkdose::kMostLawMemories
 SHARED_CONST kUserReaches = 31u;    // a bit beside those of the laws: the user's has a reach
-// Laws whose contacts hold on beyond touch, a bit each (law/reach.glsl).
-SHARED_CONST kReachingLaws = 1u << kLawJkr | 1u << kUserReaches;
+// Laws whose contacts hold on beyond touch, and laws that keep the overlap of the last step, a bit each.
+SHARED_CONST kReachingLaws = 1u << kUserReaches
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) | uint(reaches) << uint(number)
+#include "laws.h"
+    ;
+SHARED_CONST kOverlapKeepers = 0u
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) | uint(keepsOverlap) << uint(number)
+#include "laws.h"
+    ;
 
 // Hertz-Mindlin, EEPA, JKR: springs are ratios to the stiffness 2 E* a of a contact of the radius a, dampings ratios to
 // its damping. A user's law: ratios to its own stiffness and damping.
@@ -128,7 +131,7 @@ struct ContactParams {
     // delta gamma [N/m], lambda_p; JKR: as Hertz-Mindlin, then the cube root of sqrt(2 pi delta gamma/E*)/4 [m^(1/6)];
     // a user's law: the largest stiffness that is taken from it [N/m]
     vec4 normal;
-    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (kLawLuding ...), kLimitAbsolute
+    vec4 springs;   // of sliding, rolling, torsion: kt, kr, kTo [N/m]; w: law (laws.h), kLimitAbsolute
     vec4 friction;  // coefficients of sliding, rolling, torsion: mu, muR, muTo; w: EEPA: f0 [N]; a
                     // user's law: its farthest reach [m]
     // of sliding, rolling, torsion, then of the normal part: gammaT, gammaR, gammaTo, gamma [kg/s]; EEPA: w: chi/1.5

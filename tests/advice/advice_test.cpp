@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "host/model/key.h"
+#include "host/core/key.h"
 #include "tests/advice/slips.h"
 #include "tests/advice/warnings.h"
 #include "tests/support/catch.h"

@@ -4,7 +4,7 @@
 
 #include "host/analysis/settled_figures.h"
 #include "host/core/sphere.h"
-#include "host/model/pull_off.h"
+#include "host/law/law.h"
 #include "tests/analysis/beds.h"
 #include "tests/support/catch.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "host/backend/vulkan/passes.h"
-#include "host/model/user_law.h"
+#include "host/law/user_law.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "host/model/normal_law.h"
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
+#include "host/law/jkr.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"

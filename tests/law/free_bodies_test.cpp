@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/core/record.h"
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
 #include "host/model/stability.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"

@@ -1,14 +1,11 @@
 // Elastic adhesive spheres against the theory of Johnson, Kendall and Roberts with the contact radius as its parameter.
 
-#include "host/model/jkr.h"
+#include "host/law/jkr.h"
+#include "host/law/hertz.h"
 
 #include <cmath>
 
 #include "host/backend/reference/contact.h"
-#include "host/backend/reference/normal.h"
-#include "host/model/normal_law.h"
-#include "host/model/pull_off.h"
-#include "host/model/restitution.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"
@@ -16,8 +13,6 @@
 
 using namespace vkdose;
 using namespace vkdose::test;
-using reference::normalAnswer;
-using reference::NormalAnswer;
 
 namespace {
 
@@ -114,10 +109,10 @@ TEST_CASE("jkr: the stored energy is the area under the path, and what touch los
         const Published known(p);
         for (const double share : {1.001, 1.3, 2.0, 2.51984, 3.5, 9.0}) {
             const double a = share * known.lost(), overlap = known.overlap(a);
-            const double stored = reference::storedEnergy(p, overlap, kReduced, 0, 1);
+            const double stored = storedEnergy(p, overlap, kReduced, 0, 1);
             CHECK(near(stored, known.area(a), known.snap() + std::abs(stored), 1e-7));
             if (overlap <= 0) continue;
-            const double arriving = reference::workOfFirstTouch(p, overlap, kReduced, 0);
+            const double arriving = workOfFirstTouch(p, overlap, kReduced, 0);
             CHECK(near(arriving - stored, known.snap(), known.snap() + std::abs(stored), 1e-3));
             CHECK(near(arriving, known.area(a) - known.area(known.touching()), known.snap() + std::abs(stored), 1e-6));
         }
@@ -140,8 +135,8 @@ TEST_CASE("jkr: without surface energy it is the law of Hertz and Mindlin") {
             CHECK(nearRelative(a.*same, b.*same, 1e-12));
         CHECK(a.pull == 0);
         CHECK(memory == overlap);
-        CHECK(nearRelative(reference::storedEnergy(p, overlap, kReduced, a.force, memory),
-                           reference::storedEnergy(elastic, overlap, kReduced, b.force, touched), 1e-12));
+        CHECK(nearRelative(storedEnergy(p, overlap, kReduced, a.force, memory),
+                           storedEnergy(elastic, overlap, kReduced, b.force, touched), 1e-12));
         CHECK(nearRelative(overlapUnder(p, kReduced, a.force), overlap, 1e-9));
     }
     for (const double speed : {0.0, 0.3}) CHECK(near(restitutionAt(p, kMass, kReduced, speed), 0.6, 1, 1e-4));

@@ -1,15 +1,12 @@
 // The normal law against its closed forms.
 
-#include "host/backend/reference/normal.h"
-#include "host/model/pull_off.h"
-
+#include "host/law/luding.h"
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
 
 using namespace vkdose;
 using namespace vkdose::test;
-using reference::normalForce;
 
 namespace {
 

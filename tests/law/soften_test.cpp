@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "host/backend/reference/contact.h"
-#include "host/backend/reference/normal.h"
+#include "host/law/luding.h"
 #include "host/model/case.h"
-#include "host/model/pull_off.h"
 #include "tests/law/setups.h"
 #include "tests/support/catch.h"
 #include "tests/support/folder.h"
@@ -82,8 +81,8 @@ TEST_CASE("soften: every path of overlaps that is s times as wide gives the same
         const ContactParameters p = soft(s);
         double hardMax = 0, softMax = 0, strongest = 0;
         for (const double part : path) {
-            const double overlap = part * limit, f = reference::normalForce(hard, overlap, kRadius, hardMax);
-            const double g = reference::normalForce(p, s * overlap, kRadius, softMax);
+            const double overlap = part * limit, f = normalForce(hard, overlap, kRadius, hardMax);
+            const double g = normalForce(p, s * overlap, kRadius, softMax);
             CAPTURE(s, part);
             CHECK(near(g, f, hard.k1 * limit, kRounding));
             CHECK(near(softMax, s * hardMax, s * limit, kRounding));

@@ -5,7 +5,9 @@
 
 #include "host/backend/reference/contact.h"
 #include "host/backend/reference/rolling.h"
-#include "host/model/normal_law.h"
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
+#include "host/law/jkr.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
 

@@ -6,7 +6,6 @@
 #include "geometry/tessellate.h"
 #include "host/core/error.h"
 #include "host/model/body_form.h"
-#include "host/model/normal_law.h"
 #include "tests/model/body_reader.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "host/core/error.h"
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
 

@@ -1,13 +1,12 @@
 // Parameters as people have them: a restitution, a contact duration, an overlap under the bed's weight, a Bond number.
 // Closed forms and case files; target_physics_test.cpp simulates what comes out.
 #include "host/model/contact_targets.h"
+#include "host/law/luding.h"
 
 #include <cmath>
 
 #include "host/core/error.h"
 #include "host/model/bed_weight.h"
-#include "host/model/pull_off.h"
-#include "host/model/restitution.h"
 #include "host/model/stability.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
@@ -78,8 +77,9 @@ TEST_CASE("restitution at a speed: the closed form without damping, another prog
     CHECK(paperRebound(damped, 1) == Approx(0.1578007475).margin(1e-3));
     CHECK(paperRebound(paperContact(0.0827, 0.873), 0.2) == Approx(0.325962277).margin(1e-3));
     // Slow impacts tend to the closed form of damping alone.
-    CHECK(paperRebound(damped, 1e-5) == Approx(restitution(damped, kDensity, kRadius, kRadius)).margin(1e-4));
-    CHECK(paperRebound(damped, 0) == restitution(damped, kDensity, kRadius, kRadius));
+    CHECK(paperRebound(damped, 1e-5) ==
+          Approx(restitution(damped, reducedMass(kDensity, kRadius, kRadius))).margin(1e-4));
+    CHECK(paperRebound(damped, 0) == restitution(damped, reducedMass(kDensity, kRadius, kRadius)));
 }
 
 TEST_CASE("the adhesion of a wanted pull is the inverse of the pull-off force") {
@@ -115,9 +115,9 @@ TEST_CASE("each class gets the restitution and the duration for its own mass") {
     const auto file = folder.write("case.toml", withContact("damping = 0.02", "restitution = 0.6"));
     const Case c = loadCase(file);
     const double mean = 1.1e-3;
-    CHECK(restitution(c.dosingLaw.of(kPair), 1427, mean, mean) == Approx(0.6).epsilon(1e-12));
+    CHECK(restitution(c.dosingLaw.of(kPair), reducedMass(1427, mean, mean)) == Approx(0.6).epsilon(1e-12));
     for (const ContactClass kind : {kAtWall, ContactClass::ParticleCoil})
-        CHECK(restitution(c.dosingLaw.of(kind), 1427, mean, kWall) == Approx(0.6).epsilon(1e-12));
+        CHECK(restitution(c.dosingLaw.of(kind), reducedMass(1427, mean, kWall)) == Approx(0.6).epsilon(1e-12));
     CHECK(c.dosingLaw.of(kAtWall).gamma > 1.3 * c.dosingLaw.of(kPair).gamma);
 
     // A class that states its own parameter keeps it, and so do those below it.
@@ -125,9 +125,10 @@ TEST_CASE("each class gets the restitution and the duration for its own mass") {
     CHECK(own.dosingLaw.of(kAtWall).gamma == 0.03);
     CHECK(own.dosingLaw.of(ContactClass::ParticleCoil).gamma == 0.03);
     const Case other = loadCase(file, {"contact.wall.restitution=0.3", "contact.coil.k=3000"});
-    CHECK(restitution(other.dosingLaw.of(kAtWall), 1427, mean, kWall) == Approx(0.3).epsilon(1e-12));
-    CHECK(restitution(other.dosingLaw.of(ContactClass::ParticleCoil), 1427, mean, kWall) == Approx(0.3).epsilon(1e-12));
-    CHECK(restitution(other.dosingLaw.of(kPair), 1427, mean, mean) == Approx(0.6).epsilon(1e-12));
+    CHECK(restitution(other.dosingLaw.of(kAtWall), reducedMass(1427, mean, kWall)) == Approx(0.3).epsilon(1e-12));
+    CHECK(restitution(other.dosingLaw.of(ContactClass::ParticleCoil), reducedMass(1427, mean, kWall)) ==
+          Approx(0.3).epsilon(1e-12));
+    CHECK(restitution(other.dosingLaw.of(kPair), reducedMass(1427, mean, mean)) == Approx(0.6).epsilon(1e-12));
 
     const Case timed = loadCase(file, {"contact.contact_duration_s=2e-4", "contact.wall.contact_duration_s=3e-4"});
     const Derived d = derive(timed, insertParticles(timed));
@@ -220,7 +221,7 @@ TEST_CASE("the resolved case has the parameters and says what they were made fro
     const auto resolved = folder.write("resolved.toml", c.resolved);
     const Case set = loadCase(resolved, {"contact.damping=0.01", "contact.wall.restitution=0.7"});
     CHECK(set.dosingLaw.of(kPair).gamma == 0.01);
-    CHECK(restitution(set.dosingLaw.of(kAtWall), 1427, 1.1e-3, kWall) == Approx(0.7));
+    CHECK(restitution(set.dosingLaw.of(kAtWall), reducedMass(1427, 1.1e-3, kWall)) == Approx(0.7));
     REQUIRE(set.derivations.size() == 2);
     CHECK_THAT(set.derivations[0], Catch::StartsWith("contact.wall: damping = ") && !Catch::Contains("0.004"));
 
@@ -228,7 +229,7 @@ TEST_CASE("the resolved case has the parameters and says what they were made fro
     const Case soft =
         loadCase(file, {"contact.restitution=0.5", "contact.soften=4", "contact.overlap_under_bed=0.004"});
     CHECK(soft.dosingLaw.of(kPair).k2Max == Approx(c.dosingLaw.of(kPair).k2Max / 4));
-    CHECK(restitution(soft.dosingLaw.of(kPair), 1427, 1.1e-3, 1.1e-3) == Approx(0.5));
+    CHECK(restitution(soft.dosingLaw.of(kPair), reducedMass(1427, 1.1e-3, 1.1e-3)) == Approx(0.5));
     CHECK_THAT(soft.derivations.at(0), Catch::EndsWith("; then softened 4 times"));
     CHECK(loadResolvedCase(soft.resolved, file).resolved == soft.resolved);
 }

@@ -1,12 +1,12 @@
 // A user's law in double precision: each part of the language gives what GLSL says.
 
-#include "host/model/law_program.h"
+#include "host/law/law_program.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "host/model/law_checks.h"
+#include "host/law/law_checks.h"
 #include "tests/support/catch.h"
 
 using namespace vkdose;

@@ -1,8 +1,8 @@
 // Materials: pairs of them, and the figures that are judged over all pairs.
 #include <set>
 
+#include "host/law/jkr.h"
 #include "host/model/case.h"
-#include "host/model/normal_law.h"
 #include "host/model/stability.h"
 #include "tests/support/catch.h"
 

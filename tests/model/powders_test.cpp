@@ -5,10 +5,10 @@
 #include <set>
 
 #include "host/core/error.h"
+#include "host/law/law.h"
 #include "host/model/case.h"
 #include "host/model/overlaps.h"
 #include "host/model/powders.h"
-#include "host/model/restitution.h"
 #include "host/model/stability.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"

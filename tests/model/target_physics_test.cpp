@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/backend/reference/normal.h"
 #include "host/backend/reference/reference.h"
+#include "host/law/luding.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
@@ -127,9 +127,9 @@ TEST_CASE("a contact pulls with the force that the case asks for, and no more") 
         // Pressed to twice the plastic limit and pulled apart in small steps.
         const double deepest = 2 * 1.25 * p.plasticityDepth * reduced;
         double largest = 0, pull = 0;
-        reference::normalForce(p, deepest, reduced, largest);
+        normalForce(p, deepest, reduced, largest);
         for (int i = 0; i <= 100000; ++i)
-            pull = std::max(pull, -reference::normalForce(p, deepest * (1 - i * 1e-5), reduced, largest));
+            pull = std::max(pull, -normalForce(p, deepest * (1 - i * 1e-5), reduced, largest));
         CHECK(near(pull, 30 * weight, weight, 30 * 1e-3));
     }
 }

@@ -1,12 +1,12 @@
 // What the host makes of a user's law without a device.
 
-#include "host/model/user_law.h"
+#include "host/law/user_law.h"
 
 #include <fmt/format.h>
 
 #include <functional>
 
-#include "host/model/law_checks.h"
+#include "host/law/law_checks.h"
 #include "host/model/user_law_trial.h"
 #include "tests/model/case_files.h"
 #include "tests/support/catch.h"

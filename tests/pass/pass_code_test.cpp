@@ -1,7 +1,7 @@
 // The passes that are compiled at run time.
 #include "host/backend/vulkan/pass_code.h"
 
-#include "host/model/user_law.h"
+#include "host/law/user_law.h"
 #include "spirv/sources.h"
 #include "tests/support/catch.h"
 

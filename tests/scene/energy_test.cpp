@@ -3,7 +3,9 @@
 #include <array>
 #include <random>
 
-#include "host/model/normal_law.h"
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
+#include "host/law/jkr.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/agreement.h"
 

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <thread>
 
-#include "host/model/normal_law.h"
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
+#include "host/law/jkr.h"
 #include "tests/scene/beds.h"
 #include "tests/support/records.h"
 

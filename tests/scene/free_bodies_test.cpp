@@ -4,7 +4,7 @@
 #include <cmath>
 #include <thread>
 
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/free_body_bits.h"
 #include "tests/support/catch.h"

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "host/model/jkr.h"
-#include "host/model/normal_law.h"
+#include "host/law/jkr.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/body_beds.h"
 #include "tests/support/catch.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host/model/user_law.h"
+#include "host/law/user_law.h"
 #include "tests/support/gpu.h"
 
 using namespace vkdose;

@@ -5,7 +5,8 @@
 #include <set>
 #include <thread>
 
-#include "host/model/normal_law.h"
+#include "host/law/hertz.h"
+#include "host/law/jkr.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/mixed_beds.h"
 #include "tests/support/catch.h"

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "host/model/normal_law.h"
+#include "host/law/eepa.h"
+#include "host/law/hertz.h"
 #include "tests/scene/beds.h"
 
 using namespace vkdose;

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "host/model/normal_law.h"
+#include "host/law/jkr.h"
 #include "tests/scene/body_beds.h"
 #include "tests/support/catch.h"
 #include "tests/support/records.h"

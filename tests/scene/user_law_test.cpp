@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "host/core/file.h"
-#include "host/model/normal_law.h"
-#include "host/model/user_law.h"
+#include "host/law/hertz.h"
+#include "host/law/user_law.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/scene/beds.h"
 #include "tests/support/places.h"

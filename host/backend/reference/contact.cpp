@@ -4,11 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "host/backend/reference/normal.h"
 #include "host/backend/reference/rolling.h"
 #include "host/backend/reference/sliding.h"
 #include "host/backend/reference/torsion.h"
-#include "host/model/user_law_trial.h"
+#include "host/law/law.h"
 
 namespace vkdose::reference {
 
@@ -124,7 +123,7 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
     response.couple = rollingCouple + torsionCouple;
     response.torqueI = glm::cross(touch.leverI, tangential) + response.couple;
     response.torqueJ = glm::cross(touch.leverJ, -tangential) - response.couple;
-    const bool adhesive = onAdhesiveBranch(p, touch.overlap, answer.force);
+    const bool adhesive = normalLaw(p).adheres(p, touch.overlap, answer.force);
     response.parts = {.hysteretic = answer.force,
                       .damping = touch.share * damping,
                       .sliding = tangential,

@@ -5,7 +5,7 @@
 
 #include "geometry/motion.h"
 #include "host/core/vec.h"
-#include "host/model/law_program.h"
+#include "host/law/law_program.h"
 #include "host/model/material.h"
 
 namespace vkdose::reference {

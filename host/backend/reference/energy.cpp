@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/backend/reference/normal.h"
+#include "host/law/law.h"
 
 namespace vkdose::reference {
 
@@ -32,18 +32,16 @@ Work operator+(const Work& a, const Work& b) {
             a.torsion + b.torsion};
 }
 
-/// Energy that the normal force loses: the area between its path and the overlap axis, less the stored part. The path
-/// of a new contact begins at overlap zero, and the path of a contact that parts ends there. Motion of the particles
-/// before or after that within the step does not count here.
+/// Energy that the normal force loses.
 double lossByLaw(const Exerted& before, const Exerted& now, double taken) {
-    const NormalLaw law = (now.touching ? now : before).parts.law;
-    if (!losesEnergy(law)) return 0;
-    const double stored = now.elastic.normal - before.elastic.normal;
-    if (law == NormalLaw::User) return taken - stored;  // nobody else can say
-    if (losesAtTouchAlone(law) && before.touching) return 0;
-    if (!before.touching) return now.parts.arriving - stored;
-    if (!now.touching) return partsOnStoredPath(law) ? 0 : -before.parts.hysteretic * before.overlap / 2 - stored;
-    return taken - stored;
+    const NormalStep step{before.touching,
+                          now.touching,
+                          before.parts.hysteretic,
+                          before.overlap,
+                          now.parts.arriving,
+                          taken,
+                          now.elastic.normal - before.elastic.normal};
+    return normalLaw((now.touching ? now : before).parts.law).lost(step);
 }
 
 }  // namespace

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <variant>
-
-#include "host/model/normal_law.h"
-#include "host/model/restitution.h"
+#include "host/law/law.h"
 
 namespace vkdose::reference {
 

@@ -8,8 +8,7 @@
 #include "geometry/matching.h"
 #include "host/backend/reference/forces.h"
 #include "host/core/error.h"
-#include "host/model/normal_law.h"
-#include "host/model/restitution.h"
+#include "host/law/law.h"
 
 namespace vkdose::reference {
 

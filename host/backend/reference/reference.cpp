@@ -10,9 +10,8 @@
 #include "host/backend/reference/free_motion.h"
 #include "host/backend/reference/neighbours.h"
 #include "host/core/error.h"
-#include "host/model/law_checks.h"
-#include "host/model/normal_law.h"
-#include "host/model/user_law_state.h"
+#include "host/law/law_checks.h"
+#include "host/law/user_law_state.h"
 
 namespace vkdose {
 

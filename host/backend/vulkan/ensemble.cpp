@@ -9,8 +9,8 @@
 #include "host/backend/vulkan/pack.h"
 #include "host/backend/vulkan/snapshot.h"
 #include "host/core/error.h"
-#include "host/model/normal_law.h"
-#include "host/model/user_law_state.h"
+#include "host/law/law.h"
+#include "host/law/user_law_state.h"
 #include "host/model/user_law_trial.h"
 
 namespace vkdose {

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "host/backend/vulkan/split.h"
 #include "host/core/error.h"
-#include "host/model/normal_law.h"
-#include "host/model/user_law_trial.h"
+#include "host/law/law.h"
 
 namespace vkdose {
 
@@ -25,10 +23,7 @@ static_assert(gpu::kStatusActive == uint32_t(Status::Active) && gpu::kStatusDose
 static_assert(gpu::kFirstPowder == kFirstPowder && gpu::kWallMaterial == kWallMaterial &&
               gpu::kCoilMaterial == kCoilMaterial && gpu::kMostMaterials == kMostMaterials);
 static_assert(gpu::pairIndex(2, 5) == PairTable::index({2, 5}) && gpu::pairIndex(5, 2) == gpu::pairIndex(2, 5));
-static_assert(gpu::kLawLuding == uint32_t(NormalLaw::Luding) &&
-              gpu::kLawHertzMindlin == uint32_t(NormalLaw::HertzMindlin) &&
-              gpu::kLawEepa == uint32_t(NormalLaw::Eepa) && gpu::kLawJkr == uint32_t(NormalLaw::Jkr) &&
-              gpu::kLawUser == uint32_t(NormalLaw::User));
+static_assert(gpu::kLawUser == uint32_t(NormalLaw::User));
 static_assert(gpu::kOwnParameters == kMostLawParameters && gpu::kOwnMemories == kMostLawMemories);
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
@@ -37,26 +32,11 @@ gpu::ContactParams packContact(const ContactParameters& c) {
     const bool bySize = c.coulombLimit == CoulombLimit::Absolute;
     p.springs =
         vec4(float(c.kt), float(c.kr), float(c.kTo), float(uint32_t(c.law) + (bySize ? gpu::kLimitAbsolute : 0)));
-    p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), 0.0f);
-    p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(c.gamma));
-    if (c.law == NormalLaw::User) {
-        for (std::size_t k = 0; k < c.own.size(); ++k) p.own[k / 4][int(k % 4)] = float(c.own[k]);
-        p.friction.w = float(c.reach);
-        p.normal.x = float(std::min(mostStiffness(c), double(std::numeric_limits<float>::max())));
-        return p;
-    }
-    if (c.law == NormalLaw::Luding) {
-        p.normal = vec4(float(c.k1), float(c.k2Max), float(c.kc), float(c.plasticityDepth));
-        return p;
-    }
-    p.normal = vec4(float(c.modulus), float(kHertzDamping * c.dampingShare), 0.0f, 0.0f);
-    if (c.law == NormalLaw::Eepa) {
-        p.normal.z = float(1.5 * kPi * c.surfaceEnergy);
-        p.normal.w = float(c.plasticityRatio);
-        p.friction.w = float(-c.constantPull);
-        p.damping.w = float(c.adhesionExponent / 1.5);
-    }
-    if (c.law == NormalLaw::Jkr) p.normal.z = float(std::cbrt(std::sqrt(2 * kPi * c.surfaceEnergy / c.modulus) / 4));
+    const LawLanes lanes = normalLaw(c).lanes(c);
+    for (int k = 0; k < 4; ++k) p.normal[k] = float(lanes.normal[std::size_t(k)]);
+    p.friction = vec4(float(c.mu), float(c.muR), float(c.muTo), float(lanes.constant));
+    p.damping = vec4(float(c.gammaT), float(c.gammaR), float(c.gammaTo), float(lanes.damping));
+    for (std::size_t k = 0; k < c.own.size(); ++k) p.own[k / 4][int(k % 4)] = float(c.own[k]);
     return p;
 }
 

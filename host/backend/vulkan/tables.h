@@ -65,8 +65,10 @@ struct TableSizes {
     std::uint32_t firstSurfaceSlot(std::uint32_t member) const { return members * pairSlots + member * surfaceSlots; }
     std::uint32_t firstBodySlot(std::uint32_t member) const { return springSlots() + member * bodySlots; }
     /// Number of vectors in a contact's history (kParts in shared/buffers.glsl).
-    std::uint32_t historyParts() const { return ownPart() + (userLaw ? 2U : laws >> gpu::kLawEepa & 1U); }
-    /// Where in it a user's law, or EEPA, has its memory (kOwnPart).
+    std::uint32_t historyParts() const {
+        return ownPart() + (userLaw ? 2U : (laws & gpu::kOverlapKeepers) != 0 ? 1U : 0U);
+    }
+    /// Where in it a user's law has its memory, or another law the overlap of the last step (kOwnPart).
     std::uint32_t ownPart() const { return energyBook ? 5 : 2; }
     /// The same of a place on a body, and of a body slot (kPlaceParts, kBodyHistory).
     std::uint32_t placeParts() const { return historyParts() + 1; }

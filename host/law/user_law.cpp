@@ -1,0 +1,216 @@
+#include "host/law/user_law.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "host/core/closest_word.h"
+#include "host/core/fnv.h"
+#include "host/law/law_bodies.h"
+#include "host/law/law_checks.h"
+#include "host/law/law_tokens.h"
+#include "host/law/user_law_shader.h"
+
+namespace vkdose {
+namespace {
+
+const std::vector<std::string> kRequired{"force", "stiffness"};
+const std::vector<std::string> kAnswers{"force", "stiffness", "damping", "pull", "energy", "reach"};
+
+bool isAnswer(std::string_view name) {
+    return std::ranges::find(kAnswers, name) != kAnswers.end();
+}
+
+/// Reads the tokens of a law from the first to the last.
+class Parser : private LawBodies {
+  public:
+    Parser(const std::vector<LawToken>& tokens, UserLaw& law) : LawBodies(tokens), law_(law) {}
+
+    void read() {
+        checkLawTokens(tokens_);
+        while (at_ < tokens_.size()) readDeclaration();
+        refuseUncalled();
+        for (const std::string& name : kRequired)
+            if (!functions_.contains(name))
+                refuseLaw(last(), fmt::format("the function {} is missing", name),
+                          fmt::format("add float {}(Contact c) {{ return ...; }}", name));
+        refuseTrips();
+        law_.hasDamping = functions_.contains("damping");
+        law_.hasPull = functions_.contains("pull");
+        law_.hasEnergy = functions_.contains("energy");
+        law_.hasReach = functions_.contains("reach");
+    }
+
+    bool isFunction(const std::string& name) const { return functions_.contains(name); }
+
+  private:
+    void declare(const LawToken& t) {
+        if (!names_.insert(t.text).second)
+            refuseLaw(t, fmt::format("{} is declared twice", t.text), "remove one of them");
+    }
+
+    /// A variable that the engine would take for a function that is missing.
+    static void refuseAnswer(const LawToken& t) {
+        if (isAnswer(t.text)) refuseLaw(t, fmt::format("{} is the name of a function", t.text), "choose another name");
+    }
+
+    void readNames(std::vector<std::string>& names, const char* kind, std::size_t most) {
+        expect("float");
+        for (;;) {
+            const LawToken& t = name(kind);
+            declare(t);
+            refuseAnswer(t);
+            names.push_back(t.text);
+            if (names.size() > most)
+                refuseLaw(t, fmt::format("is {} {} of a law, and there is room for {}", names.size(), kind, most),
+                          "do with fewer");
+            if (!here(",")) break;
+            ++at_;
+        }
+        expect(";");
+    }
+
+    void readDeclaration() {
+        const LawToken& first = next("a declaration");
+        if (first.is("parameter")) return readNames(law_.parameters, "parameter", kMostLawParameters);
+        if (first.is("memory")) return readNames(law_.memories, "memory", kMostLawMemories);
+        if (first.is("const")) return readConstant();
+        if (!isLawType(first.text))
+            refuseLaw(first, fmt::format("{} begins no declaration", first.text),
+                      "outside of functions there are `parameter float`, `memory float`, `const` and functions");
+        readFunction(first);
+    }
+
+    const LawToken& nameOfConstant() {
+        const LawToken& t = name("a constant");
+        declare(t);
+        refuseAnswer(t);
+        return t;
+    }
+
+    void readConstant() {
+        const LawToken& type = next("a type");
+        const LawToken& constant = nameOfConstant();
+        expect("=");
+        if (type.is("int") && at_ + 1 < tokens_.size() && tokens_[at_ + 1].is(";"))
+            if (const auto value = integer(tokens_[at_])) integers_[constant.text] = *value;
+        for (int depth = 0; !here(";");) {
+            const LawToken& t = next(";");
+            if (t.is("{") || t.is("}")) refuseLaw(t, "the constant's line has no ;", "add it");
+            if (t.is("(")) ++depth;
+            if (t.is(")")) --depth;
+            if (t.is(",") && depth == 0) nameOfConstant();
+        }
+        ++at_;
+    }
+
+    void readFunction(const LawToken& type) {
+        const LawToken& function = name("a function");
+        if (!here("("))
+            refuseLaw(function, fmt::format("{} is a variable outside of the functions", function.text),
+                      "declare `parameter float`, `memory float` or `const`, or move it into a function");
+        ++at_;
+        declare(function);
+        if (isLawFunction(function.text))
+            refuseLaw(function, fmt::format("{} is a function of GLSL", function.text), "choose another name");
+        std::vector<std::string> types;
+        while (!here(")")) {
+            const LawToken* t = &next(")");
+            while (t->is("const") || t->is("in")) t = &next("a type");
+            if (!isLawType(t->text) && !t->is("Contact"))
+                refuseLaw(*t, fmt::format("{} is no type", t->text), "give float, int, bool, vec2 ... or Contact");
+            types.push_back(t->text);
+            if (t->is("void") && here(")")) break;
+            refuseShadow(name("an argument"));
+            if (here(",")) ++at_;
+        }
+        expect(")");
+        if (isAnswer(function.text) && (!type.is("float") || types != std::vector<std::string>{"Contact"}))
+            refuseLaw(function, fmt::format("{} has another signature", function.text),
+                      fmt::format("write float {}(Contact c) {{ ... }}", function.text));
+        if (here(";"))
+            refuseLaw(tokens_[at_], fmt::format("{} has no body", function.text),
+                      "define a function before it is called");
+        expect("{");
+        name_ = function.text;
+        function_ = {};
+        if (types == std::vector<std::string>{"Contact"}) function_.ofContact = &function;
+        const std::size_t body = at_;
+        const std::map<std::string, long> outside = integers_;
+        const bool returns = readBlock(1);
+        integers_ = outside;
+        if (!returns && !type.is("void") && !hidesReturn(body))
+            refuseLaw(function, fmt::format("{} may end without a return, and has no value then", function.text),
+                      "end it with one");
+        grow(function, double(at_ - body));
+        refuseChanges(body);
+        functions_[name_] = function_;
+    }
+
+    /// A law changes its memory in `force`, and nothing else that outlives the call.
+    void refuseChanges(std::size_t body) const {
+        const auto is = [](const auto& names, const LawToken& t) {
+            return std::ranges::find(names, t.text) != names.end();
+        };
+        for (std::size_t k = body; k < at_; ++k) {
+            const LawToken& t = tokens_[k];
+            if (t.kind != LawToken::Kind::Name || !isChanged(tokens_, k)) continue;
+            if (is(law_.parameters, t))
+                refuseLaw(t, fmt::format("{} is a parameter, and {} changes it", t.text, name_),
+                          "use a local variable of another name");
+            if (name_ != "force" && is(law_.memories, t))
+                refuseLaw(t, fmt::format("{} is a memory, and {} changes it, which only force may do", t.text, name_),
+                          "use a local variable of another name, or change it in force");
+        }
+    }
+
+    /// A slip in the name of an optional function would go unseen.
+    void refuseUncalled() const {
+        for (const auto& [function, is] : functions_) {
+            if (is.ofContact == nullptr || is.called || isAnswer(function)) continue;
+            const std::string meant = closestWord(function, kAnswers);
+            refuseLaw(*is.ofContact, fmt::format("nobody calls the function {}", function),
+                      meant.empty() ? "call it, or remove it" : fmt::format("did you mean {}?", meant));
+        }
+    }
+
+    /// One contact calls all answers. Some devices end the loops of a shader after some ten thousand trips.
+    void refuseTrips() const {
+        double trips = 0;
+        for (const auto& [function, is] : functions_)
+            if (isAnswer(function)) addTrips(*is.ofContact, is.trips, trips);
+    }
+
+    UserLaw& law_;
+    std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::string lawHash(std::string_view text) {
+    return fmt::format("{:016x}", fnv1a(text));
+}
+
+LawReading readLaw(const std::string& name, const std::string& text) {
+    LawReading reading;
+    UserLaw& law = reading.law;
+    law.name = name;
+    law.text = text;
+    law.hash = lawHash(text);
+    std::string bare;
+    const std::vector<LawToken> tokens = lawTokens(text, bare, reading.faults);
+    if (!reading.faults.empty()) return reading;
+    Parser parser(tokens, law);
+    try {
+        parser.read();
+    } catch (const LawRefused& refused) {
+        reading.faults.push_back(refused.fault);
+        return reading;
+    }
+    law.shader = lawShader(law, bare, tokens, [&](const std::string& f) { return parser.isFunction(f); });
+    return reading;
+}
+
+}  // namespace vkdose
