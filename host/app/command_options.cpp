@@ -285,10 +285,12 @@ CLI::App& addRender(CLI::App& program, RenderOptions& options) {
         ->capture_default_str()
         ->needs(movie);
     command
-        .add_option("--color", options.color,
-                    "quantity that the colour tells (default: kinetic-energy; of a case radius, or powder if it has "
-                    "several)")
-        ->check(CLI::IsMember({"kinetic-energy", "speed", "overlap", "radius", "fill-layer", "powder"}));
+        .add_option(
+            "--color", options.color,
+            "quantity that the colour tells: kinetic-energy, speed, overlap, radius, fill-layer, powder, or what "
+            "a law of one's own gives each particle (default: kinetic-energy; of a case radius, or powder if it "
+            "has several)")
+        ->option_text("NAME");
     command.add_option("--from", options.from, "value where the colours begin, in the unit of the colour bar");
     command.add_option("--to", options.to, "value where the colours end");
     command.add_option("--view", options.view, "side from which the picture is drawn")

@@ -69,7 +69,13 @@ std::pair<int, int> sizeOf(const std::string& text) {
 
 /// Nothing of a case moves yet, so that what tells its particles apart is coloured.
 render::Quantity quantityOf(const RenderOptions& options, const Case& c) {
-    if (!options.color.empty()) return *render::quantityNamed(options.color);
+    const std::vector<std::string>& properties = c.world.properties;
+    if (!options.color.empty()) {
+        if (const auto quantity = render::quantityNamed(options.color, properties)) return *quantity;
+        std::string known = fmt::format("{}", fmt::join(render::kQuantityNames, ", "));
+        for (const std::string& property : properties) known += ", " + property;
+        throw UsageError(fmt::format("--color {}: is no quantity of these particles; known: {}", options.color, known));
+    }
     if (isRun(options)) return render::Quantity::KineticEnergy;
     return powdersOf(c.world).size() > 1 ? render::Quantity::Powder : render::Quantity::Radius;
 }

@@ -28,7 +28,8 @@ FrameEntry entryOf(const Frame& frame) {
 
 }  // namespace
 
-RunStates::RunStates(const fs::path& folder) : case_(caseOf(folder)), frames_(folder), entries_(frames_->entries()) {
+RunStates::RunStates(const fs::path& folder)
+    : case_(caseOf(folder)), frames_(std::in_place, folder, case_.world.properties), entries_(frames_->entries()) {
     if (!entries_.empty()) return;
     if (!fs::exists(folder / "summary.json"))
         throw UsageError(

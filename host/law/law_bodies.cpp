@@ -51,7 +51,7 @@ bool LawBodies::readStatement(double times) {
         const bool then = readInner(t, times);
         return here("else") && readInner(next("else"), times) && then;
     }
-    if ((t.is("parameter") || t.is("memory")) && here("float"))
+    if (isLawDeclarer(t) && here("float"))
         refuseLaw(t, fmt::format("a {} is declared inside of {}", t.text, name_), "declare it before the functions");
     --at_;
     readPlain(times);

@@ -25,8 +25,7 @@ class LawCursor {
     }
     const LawToken& name(const char* of) {
         const LawToken& t = next(of);
-        if (t.kind != LawToken::Kind::Name || isLawWord(t.text) || t.is("parameter") || t.is("memory") ||
-            t.is("Contact"))
+        if (t.kind != LawToken::Kind::Name || isLawWord(t.text) || isLawDeclarer(t) || t.is("Contact"))
             refuseLaw(t, fmt::format("{} is no name of {}", t.text, of), "give a name");
         return t;
     }

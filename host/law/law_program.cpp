@@ -32,16 +32,25 @@ LawProgram::LawProgram(const UserLaw& law)
       reach_(tree_.function("reach")),
       variables_(tree_.places) {
     for (const LawStatement& constant : tree_.constants) run(constant);
+    for (const std::string& property : law.properties)
+        flows_.push_back(tree_.function(std::string(kLawFlow) + property));
 }
 
-void LawProgram::begin(const Parameters& parameters, const Memory& memory) {
+void LawProgram::begin(const Parameters& parameters, const Memory& memory, const LawSides& sides) {
     for (std::size_t k = 0; k < tree_.parameters.size(); ++k)
         variables_[tree_.parameters[k]] = lawNumber(parameters[k]);
     for (std::size_t k = 0; k < tree_.memories.size(); ++k) variables_[tree_.memories[k]] = lawNumber(memory[k]);
+    for (std::size_t k = 0; k < tree_.properties.size(); ++k) {
+        LawValue& both = variables_[tree_.properties[k]];
+        both.type = lawTypeOf("vec2");
+        both.x[0] = sides.i[k];
+        both.x[1] = sides.j[k];
+    }
 }
 
-LawAnswer LawProgram::answer(const Parameters& parameters, const LawContact& contact, Memory& memory) {
-    begin(parameters, memory);
+LawAnswer LawProgram::answer(const Parameters& parameters, const LawContact& contact, Memory& memory,
+                             const LawSides& sides) {
+    begin(parameters, memory, sides);
     LawAnswer answer;
     answer.force = call(force_, contact);
     for (std::size_t k = 0; k < tree_.memories.size(); ++k) memory[k] = variables_[tree_.memories[k]][0];
@@ -49,11 +58,12 @@ LawAnswer LawProgram::answer(const Parameters& parameters, const LawContact& con
     answer.damping = call(damping_, contact);
     answer.pull = call(pull_, contact);
     answer.energy = call(energy_, contact);
+    for (std::size_t k = 0; k < flows_.size(); ++k) answer.flows[k] = call(flows_[k], contact);
     return answer;
 }
 
 double LawProgram::reach(const Parameters& parameters, double radius) {
-    begin(parameters, {});
+    begin(parameters, {}, {});
     return call(reach_, {0, 0, radius, 0});
 }
 

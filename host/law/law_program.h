@@ -22,6 +22,12 @@ struct LawContact {
 /// What it answers.
 struct LawAnswer {
     double force = 0, stiffness = 0, damping = 0, pull = 0, energy = 0;
+    LawProperties flows{};  ///< what the first side gains by the contact, and the other loses [unit/s]
+};
+
+/// The properties of the two sides of a contact.
+struct LawSides {
+    LawProperties i{}, j{};
 };
 
 class LawProgram {
@@ -33,7 +39,8 @@ class LawProgram {
     explicit LawProgram(const UserLaw& law);
 
     /// `force` changes the memory; the other functions see it as `force` left it.
-    LawAnswer answer(const Parameters& parameters, const LawContact& contact, Memory& memory);
+    LawAnswer answer(const Parameters& parameters, const LawContact& contact, Memory& memory,
+                     const LawSides& sides = {});
     /// How far beyond touch a contact of this reduced radius holds on [m].
     double reach(const Parameters& parameters, double radius);
 
@@ -43,7 +50,7 @@ class LawProgram {
   private:
     enum class Flow : std::uint8_t { On, Break, Continue, Return };
 
-    void begin(const Parameters& parameters, const Memory& memory);
+    void begin(const Parameters& parameters, const Memory& memory, const LawSides& sides);
     double call(const LawFunction* function, const LawContact& contact);
     LawValue call(const LawFunction& function, std::span<const LawValue> arguments);
     LawValue value(const LawExpression& e);
@@ -55,6 +62,7 @@ class LawProgram {
 
     LawTree tree_;
     const LawFunction *force_, *stiffness_, *damping_, *pull_, *energy_, *reach_;
+    std::vector<const LawFunction*> flows_;  ///< of each property; null where it does not flow
     std::vector<LawValue> variables_;
     LawValue returned_;
     std::uint64_t work_ = 0;

@@ -191,6 +191,10 @@ bool isLawType(std::string_view name) {
 bool isLawWord(std::string_view name) {
     return isLawType(name) || holds(kWords, name);
 }
+bool isLawDeclarer(const LawToken& token) {
+    return token.is("parameter") || token.is("memory") || token.is("particle");
+}
+
 bool isLawFunction(std::string_view name) {
     return holds(kFunctions, name);
 }

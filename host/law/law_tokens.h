@@ -28,6 +28,8 @@ std::vector<LawToken> lawTokens(const std::string& text, std::string& bare, std:
 bool isLawWord(std::string_view name);
 bool isLawFunction(std::string_view name);
 bool isLawType(std::string_view name);
+/// Whether it begins a declaration outside of functions that GLSL does not have: parameter, memory, particle.
+bool isLawDeclarer(const LawToken& token);
 
 /// Why a law may not use this word; empty if it may.
 std::string_view refusalOf(std::string_view name);

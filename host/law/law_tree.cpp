@@ -69,10 +69,12 @@ class Reader : private LawCursor {
     }
 
     void readDeclaration() {
-        if (here("parameter") || here("memory")) {
-            const bool parameter = here("parameter");
+        if (isLawDeclarer(tokens_[at_])) {
+            std::vector<std::size_t>& places = here("parameter") ? tree_.parameters
+                                               : here("memory")  ? tree_.memories
+                                                                 : tree_.properties;
             at_ += 2;
-            do (parameter ? tree_.parameters : tree_.memories).push_back(declare(name("a variable").text));
+            do places.push_back(declare(name("a variable").text));
             while (takes(","));
             expect(";");
             return;

@@ -63,8 +63,8 @@ struct LawFunction {
 };
 
 struct LawTree {
-    std::vector<std::size_t> parameters, memories;  ///< places, in the order of their declaration
-    std::vector<LawStatement> constants;            ///< declarations
+    std::vector<std::size_t> parameters, memories, properties;  ///< places, in the order of their declaration
+    std::vector<LawStatement> constants;                        ///< declarations
     std::vector<std::unique_ptr<LawFunction>> functions;
     std::size_t places = 0;  ///< how many variables there are
 

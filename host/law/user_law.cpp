@@ -17,11 +17,40 @@ namespace vkdose {
 namespace {
 
 const std::vector<std::string> kRequired{"force", "stiffness"};
+/// Names that columns of particles have in tables and frames.
+const std::vector<std::string> kTaken{"id",
+                                      "x",
+                                      "y",
+                                      "z",
+                                      "r",
+                                      "powder",
+                                      "status",
+                                      "radius",
+                                      "force",
+                                      "spin",
+                                      "velocity",
+                                      "overlap",
+                                      "kinetic_energy",
+                                      "member",
+                                      "material",
+                                      "vx",
+                                      "vy",
+                                      "vz",
+                                      "wx",
+                                      "wy",
+                                      "wz",
+                                      "x_m",
+                                      "y_m",
+                                      "z_m",
+                                      "radius_m",
+                                      "vx_m_s",
+                                      "vy_m_s",
+                                      "vz_m_s",
+                                      "wx_rad_s",
+                                      "wy_rad_s",
+                                      "wz_rad_s",
+                                      "periods_gone"};
 const std::vector<std::string> kAnswers{"force", "stiffness", "damping", "pull", "energy", "reach"};
-
-bool isAnswer(std::string_view name) {
-    return std::ranges::find(kAnswers, name) != kAnswers.end();
-}
 
 /// Reads the tokens of a law from the first to the last.
 class Parser : private LawBodies {
@@ -41,18 +70,28 @@ class Parser : private LawBodies {
         law_.hasPull = functions_.contains("pull");
         law_.hasEnergy = functions_.contains("energy");
         law_.hasReach = functions_.contains("reach");
+        for (const std::string& property : law_.properties)
+            law_.flows.push_back(functions_.contains(flowOf(property)) ? 1 : 0);
     }
 
     bool isFunction(const std::string& name) const { return functions_.contains(name); }
 
   private:
+    static std::string flowOf(const std::string& property) { return std::string(kLawFlow) + property; }
+
+    /// Whether it is the name of a function that the engine calls.
+    bool isAnswer(std::string_view name) const {
+        const auto flows = [&](const std::string& property) { return name == flowOf(property); };
+        return std::ranges::find(kAnswers, name) != kAnswers.end() || std::ranges::any_of(law_.properties, flows);
+    }
+
     void declare(const LawToken& t) {
         if (!names_.insert(t.text).second)
             refuseLaw(t, fmt::format("{} is declared twice", t.text), "remove one of them");
     }
 
     /// A variable that the engine would take for a function that is missing.
-    static void refuseAnswer(const LawToken& t) {
+    void refuseAnswer(const LawToken& t) const {
         if (isAnswer(t.text)) refuseLaw(t, fmt::format("{} is the name of a function", t.text), "choose another name");
     }
 
@@ -76,10 +115,20 @@ class Parser : private LawBodies {
         const LawToken& first = next("a declaration");
         if (first.is("parameter")) return readNames(law_.parameters, "parameter", kMostLawParameters);
         if (first.is("memory")) return readNames(law_.memories, "memory", kMostLawMemories);
+        if (first.is("particle")) {
+            const std::size_t begin = at_;
+            readNames(law_.properties, "particle property", kMostLawProperties);
+            for (std::size_t k = begin; k < at_; ++k)
+                if (std::ranges::find(kTaken, tokens_[k].text) != kTaken.end())
+                    refuseLaw(tokens_[k], fmt::format("particles have a {} already", tokens_[k].text),
+                              "choose another name");
+            return;
+        }
         if (first.is("const")) return readConstant();
         if (!isLawType(first.text))
             refuseLaw(first, fmt::format("{} begins no declaration", first.text),
-                      "outside of functions there are `parameter float`, `memory float`, `const` and functions");
+                      "outside of functions there are `parameter float`, `memory float`, `particle float`, `const` and "
+                      "functions");
         readFunction(first);
     }
 
@@ -110,7 +159,8 @@ class Parser : private LawBodies {
         const LawToken& function = name("a function");
         if (!here("("))
             refuseLaw(function, fmt::format("{} is a variable outside of the functions", function.text),
-                      "declare `parameter float`, `memory float` or `const`, or move it into a function");
+                      "declare `parameter float`, `memory float`, `particle float` or `const`, or move it into a "
+                      "function");
         ++at_;
         declare(function);
         if (isLawFunction(function.text))
@@ -160,6 +210,9 @@ class Parser : private LawBodies {
             if (is(law_.parameters, t))
                 refuseLaw(t, fmt::format("{} is a parameter, and {} changes it", t.text, name_),
                           "use a local variable of another name");
+            if (is(law_.properties, t))
+                refuseLaw(t, fmt::format("{} is a property of particles, and {} changes it", t.text, name_),
+                          fmt::format("say by float {}(Contact c) how it flows", flowOf(t.text)));
             if (name_ != "force" && is(law_.memories, t))
                 refuseLaw(t, fmt::format("{} is a memory, and {} changes it, which only force may do", t.text, name_),
                           "use a local variable of another name, or change it in force");
@@ -170,7 +223,9 @@ class Parser : private LawBodies {
     void refuseUncalled() const {
         for (const auto& [function, is] : functions_) {
             if (is.ofContact == nullptr || is.called || isAnswer(function)) continue;
-            const std::string meant = closestWord(function, kAnswers);
+            std::vector<std::string> answers = kAnswers;
+            for (const std::string& property : law_.properties) answers.push_back(flowOf(property));
+            const std::string meant = closestWord(function, answers);
             refuseLaw(*is.ofContact, fmt::format("nobody calls the function {}", function),
                       meant.empty() ? "call it, or remove it" : fmt::format("did you mean {}?", meant));
         }

@@ -2,6 +2,7 @@
 // A law of the normal force that a user wrote: its text, what it declares, and the shader code that it becomes.
 // cases/laws/README.md has the language.
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@ namespace vkdose {
 
 inline constexpr std::size_t kMostLawParameters = 16;
 inline constexpr std::size_t kMostLawMemories = 7;
+inline constexpr std::size_t kMostLawProperties = 4;
 /// Most trips of loops that one evaluation may take, the loops of called functions counted.
 inline constexpr double kMostLawTrips = 10000;
 /// The largest whole number in the head of a loop.
@@ -18,6 +20,8 @@ inline constexpr long kMostLoopBound = 1'000'000;
 
 /// Its names stand behind this prefix in the shader, so that they meet no name of the engine.
 inline constexpr std::string_view kUserPrefix = "User";
+/// Before the name of a property: the function that says how it flows.
+inline constexpr std::string_view kLawFlow = "flow_";
 
 struct UserLaw {
     std::string name;                     ///< as the case gives it: "bridge.glsl"
@@ -26,6 +30,8 @@ struct UserLaw {
     std::string hash;                     ///< of the text, 16 hexadecimal digits
     std::vector<std::string> parameters;  ///< in the order of their declaration
     std::vector<std::string> memories;
+    std::vector<std::string> properties;  ///< numbers that each particle has
+    std::vector<char> flows;              ///< of each property, whether a function says how it flows
     bool hasDamping = false, hasPull = false, hasEnergy = false, hasReach = false;  ///< whether it has these functions
     /// In place of law/user_text.glsl: the text, line by line, with the prefix; then the functions by which
     /// shaders/law/user_functions.glsl reads parameters and memory.
@@ -40,6 +46,9 @@ struct LawRounding {
     double device = 0, exact = 0;
     double share = 0;  ///< their difference over the answer, or over a thousandth of the largest of the loading
 };
+
+/// The properties of a particle, in the order of UserLaw::properties; 0 behind them.
+using LawProperties = std::array<double, kMostLawProperties>;
 
 /// A fault in the text of a law.
 struct LawFault {

@@ -17,20 +17,31 @@ std::string prefixed(const std::string& bare, const std::vector<LawToken>& token
         const LawToken& t = tokens[k];
         if (t.kind != LawToken::Kind::Name || (k > 0 && tokens[k - 1].is("."))) continue;
         const bool called = k + 1 < tokens.size() && tokens[k + 1].is("(");
-        const bool declares =
-            (t.is("parameter") || t.is("memory")) && k + 1 < tokens.size() && tokens[k + 1].is("float");
+        const bool declares = isLawDeclarer(t) && k + 1 < tokens.size() && tokens[k + 1].is("float");
+        const bool ofBothSides = t.is("float") && k > 0 && tokens[k - 1].is("particle");
         const bool ofGlsl = isLawWord(t.text) || (called && isLawFunction(t.text) && !isFunction(t.text));
-        if (ofGlsl) continue;
+        if (ofGlsl && !ofBothSides) continue;
         out += bare.substr(done, t.at - done);
         done = t.at + t.text.size();
-        out += declares ? "" : std::string(kUserPrefix) + t.text;
+        if (ofBothSides)
+            out += "vec2";
+        else if (!declares)
+            out += std::string(kUserPrefix) + t.text;
     }
     return out + bare.substr(done);
 }
 
-/// The functions by which shaders/law/user_functions.glsl reads parameters and memory.
+/// The functions by which shaders/law/user_functions.glsl reads parameters, memory and properties.
 std::string glue(const UserLaw& law) {
-    std::string load, recall, keep;
+    std::string load, recall, keep, sides, flows;
+    for (std::size_t k = 0; k < kMostLawProperties; ++k) {
+        const bool there = k < law.properties.size();
+        if (there)
+            sides += fmt::format("    {0}{1} = vec2(i.{2}, j.{2});\n", kUserPrefix, law.properties[k], "xyzw"[k]);
+        const bool flowing = there && law.flows[k] != 0;
+        flows += (k > 0 ? ", " : "") +
+                 (flowing ? fmt::format("{}{}{}(c)", kUserPrefix, kLawFlow, law.properties[k]) : std::string("0.0"));
+    }
     for (std::size_t k = 0; k < law.parameters.size(); ++k)
         load += fmt::format("    {}{} = {};\n", kUserPrefix, law.parameters[k], vectorPart("p.own", k));
     for (std::size_t k = 0; k < law.memories.size(); ++k) {
@@ -44,8 +55,10 @@ std::string glue(const UserLaw& law) {
     return fmt::format(
                "void userParameters(ContactParams p) {{\n{}}}\n"
                "void userRecall(vec4 own[2]) {{\n{}}}\n"
-               "void userKeep(inout vec4 own[2]) {{\n{}}}\n",
-               load, recall, keep) +
+               "void userKeep(inout vec4 own[2]) {{\n{}}}\n"
+               "void userSides(vec4 i, vec4 j) {{\n{}}}\n"
+               "vec4 userFlows(UserContact c) {{ return vec4({}); }}\n",
+               load, recall, keep, sides, flows) +
            optional("userDamping", "damping", law.hasDamping) + optional("userPull", "pull", law.hasPull) +
            optional("userEnergy", "energy", law.hasEnergy) + optional("userReach", "reach", law.hasReach);
 }

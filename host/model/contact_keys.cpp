@@ -77,6 +77,10 @@ constexpr Key kPairAlone[] = {
            "k_c/k while the powder settles"),
 };
 
+constexpr Key kLawProperties[] = {
+    other("\"NAME\"", told("required of the first powder"), "a number, in the unit that the law says"),
+};
+
 constexpr Key kLawParameters[] = {
     other("\"NAME\"", told("required"), "a number, in the unit that the law says"),
 };
@@ -127,6 +131,13 @@ std::span<const KeyTable> contactKeys() {
          "The parameters of [a law of your own](laws/README.md), under the names that its file declares. `[contact]` "
          "needs "
          "all of\nthem; the wall replaces single ones, and the coil takes from the wall what it does not state."},
+        {"contact.properties contact.wall.properties contact.coil.properties contact.A-B.properties", kLawProperties,
+         "The properties that [a law of your own](laws/README.md#numbers-of-each-particle) gives each particle, under "
+         "the "
+         "names that its file declares: in `[contact]` those of the first powder. Walls have 0 unless they state them, "
+         "the "
+         "coil and further materials have those of the wall, further powders those of the first one. "
+         "A pair of a powder with itself gives that powder's."},
     };
     return kTables;
 }

@@ -225,6 +225,7 @@ void Particles::append(const Particles& more) {
     behind(radius, more.radius);
     behind(status, more.status);
     behind(material, more.material);
+    behind(properties, more.properties);
 }
 
 Particles Insertion::allParticles() const {
@@ -239,6 +240,21 @@ std::size_t Insertion::firstOf(std::size_t refill) const {
     return first;
 }
 
+namespace {
+
+/// The properties that a user's law gives each particle: those of its material, unless a list gives its own.
+void setProperties(const Case& c, Particles& p) {
+    if (!c.dosingLaw.user || c.dosingLaw.user->properties.empty()) return;
+    LawProperties unset;
+    unset.fill(kNaN);
+    p.properties.resize(p.size(), unset);
+    for (std::size_t i = 0; i < p.size(); ++i)
+        for (std::size_t k = 0; k < unset.size(); ++k)
+            if (std::isnan(p.properties[i][k])) p.properties[i][k] = c.world.materials[p.material[i]].properties[k];
+}
+
+}  // namespace
+
 Insertion insertParticles(const Case& c) {
     Insertion result;
     result.fillHeight = -std::numeric_limits<double>::infinity();
@@ -250,6 +266,7 @@ Insertion insertParticles(const Case& c) {
         for (std::size_t i = 0; i < result.particles.size(); ++i)
             result.fillHeight =
                 std::max(result.fillHeight, result.particles.position[i].y + result.particles.radius[i]);
+        setProperties(c, result.particles);
         return result;
     }
     const SizeDistribution& size = c.filling.size;
@@ -260,6 +277,8 @@ Insertion insertParticles(const Case& c) {
     const std::vector<Drawn> all = drawFill(c, result);
     c.mixed ? fillMixed(c, all, result) : fillApart(c, all, result);
     drawRefills(c, result);
+    setProperties(c, result.particles);
+    for (Insertion::Waiting& waiting : result.waiting) setProperties(c, waiting.particles);
     return result;
 }
 

@@ -35,8 +35,9 @@ std::vector<LawPoint> LawInDoubles::tried(const LawLoading& loading) {
         p.overlap = touches ? loading.deepest * share * share * share : -reach * (k - 2 * kPart) / kPart;
         p.speed = presses ? loading.speed : -loading.speed;
         const LawAnswer a =
-            program_.answer(loading.own, {p.overlap, p.speed, loading.radius, loading.mass}, memory);
+            program_.answer(loading.own, {p.overlap, p.speed, loading.radius, loading.mass}, memory, loading.sides);
         for (const Answer& answer : kAnswers) p.*answer.device = a.*answer.exact;
+        p.flows = a.flows;
         p.reach = reach;
         points.push_back(p);
     }
@@ -49,11 +50,14 @@ void LawInDoubles::compare(const std::string& pair, const LawLoading& loading, s
     if (program_.work() > kMostWork) return;
     LawProgram::Parameters own{};
     std::transform(loading.own.begin(), loading.own.end(), own.begin(), asFloat);
+    LawSides sides;
+    std::transform(loading.sides.i.begin(), loading.sides.i.end(), sides.i.begin(), asFloat);
+    std::transform(loading.sides.j.begin(), loading.sides.j.end(), sides.j.begin(), asFloat);
     LawProgram::Memory memory{};
     std::vector<LawAnswer> exact;
     for (const LawPoint& p : points)
         exact.push_back(
-            program_.answer(own, {p.overlap, p.speed, asFloat(loading.radius), asFloat(loading.mass)}, memory));
+            program_.answer(own, {p.overlap, p.speed, asFloat(loading.radius), asFloat(loading.mass)}, memory, sides));
     for (const Answer& answer : kAnswers) {
         double largest = 0;
         for (const LawAnswer& a : exact) largest = std::max(largest, std::abs(a.*answer.exact));

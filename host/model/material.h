@@ -18,6 +18,8 @@ struct Material {
     std::string name;     ///< for messages
     bool powder = false;  ///< particles may be of it
     double density = 0;   ///< of a powder's particles [kg/m3]; of others without meaning
+    /// What a user's law declares by `particle float`: of each particle of a powder at first, of a wall always.
+    LawProperties properties{};
 };
 inline constexpr int kFirstPowder = 0, kWallMaterial = 1, kCoilMaterial = 2;
 inline constexpr int kUsualMaterials = 3;

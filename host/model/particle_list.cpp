@@ -28,9 +28,11 @@ constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
 class ListReader {
   public:
-    ListReader(std::string file, std::vector<Diagnostic>& faults, const std::vector<ListedPowder>& powders)
-        : file_(std::move(file)), faults_(faults), powders_(powders) {
+    ListReader(std::string file, std::vector<Diagnostic>& faults, const std::vector<ListedPowder>& powders,
+               const std::vector<std::string>& properties)
+        : file_(std::move(file)), faults_(faults), powders_(powders), properties_(properties) {
         place_.fill(kAbsent);
+        property_.fill(kAbsent);
     }
 
     Particles read(std::istream& stream) {
@@ -78,6 +80,13 @@ class ListReader {
             }
             if (names[i] == "powder") {
                 powder_ = i;
+                continue;
+            }
+            const auto property = std::find(properties_.begin(), properties_.end(), names[i]);
+            if (property != properties_.end()) {
+                std::size_t& place = property_.at(std::size_t(property - properties_.begin()));
+                if (place != kAbsent) fault(names[i], "", "stands twice in the header", "name each column once");
+                place = i;
                 continue;
             }
             const std::size_t column = columnOf(names[i]);
@@ -141,6 +150,11 @@ class ListReader {
         else if (count_ == before && value[3] < kSmallestNumber)
             fault("r", fields[place_[3]], "is smaller than anything in a canister", "give a radius in m");
         const int material = powder_ == kAbsent ? kFirstPowder : powderOf(fields[powder_]);
+        LawProperties own;
+        own.fill(kNaN);
+        for (std::size_t k = 0; k < properties_.size(); ++k)
+            if (property_[k] != kAbsent) own[k] = number(fields[property_[k]], properties_[k]);
+        if (count_ == before && !properties_.empty()) particles_.properties.push_back(own);
         if (count_ == before)
             particles_.add({value[0], value[1], value[2]}, value[3], {value[4], value[5], value[6]},
                            {value[7], value[8], value[9]}, material);
@@ -183,7 +197,9 @@ class ListReader {
     std::string file_;
     std::vector<Diagnostic>& faults_;
     const std::vector<ListedPowder>& powders_;
+    const std::vector<std::string>& properties_;
     std::array<std::size_t, 10> place_{};
+    std::array<std::size_t, kMostLawProperties> property_{};
     std::size_t status_ = kAbsent;
     std::size_t powder_ = kAbsent;
     std::size_t columns_ = 0;
@@ -196,7 +212,7 @@ class ListReader {
 }  // namespace
 
 Particles readParticleList(const std::filesystem::path& file, std::vector<Diagnostic>& faults,
-                           const std::vector<ListedPowder>& powders) {
+                           const std::vector<ListedPowder>& powders, const std::vector<std::string>& properties) {
     std::optional<std::string> content = fileContent(file);
     if (!content) {
         faults.push_back(
@@ -204,7 +220,7 @@ Particles readParticleList(const std::filesystem::path& file, std::vector<Diagno
         return {};
     }
     std::istringstream stream(*std::move(content));
-    return ListReader(file.string(), faults, powders).read(stream);
+    return ListReader(file.string(), faults, powders, properties).read(stream);
 }
 
 }  // namespace vkdose

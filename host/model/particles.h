@@ -25,6 +25,8 @@ struct Particles {
     std::vector<std::uint8_t> material;  ///< a powder of the world (World::materials)
     /// How many periods it has gone through since it was loaded, upwards less downwards; empty: no direction repeats.
     std::vector<glm::ivec3> gone;
+    /// What a user's law gives each particle (UserLaw::properties); empty without such a law.
+    std::vector<LawProperties> properties;
 
     std::size_t size() const { return position.size(); }
     void add(const Vec3& x, double r, const Vec3& v = Vec3(0), const Vec3& w = Vec3(0), int of = kFirstPowder) {

@@ -25,6 +25,24 @@ ContactParameters mixture(const ContactParameters& a, const ContactParameters& b
     return mixed;
 }
 
+/// The properties of the material that a pair's table is of: a powder with itself, or the first powder with a wall. A
+/// wall has none unless it gives them, the coil and further materials have the wall's, further powders the first one's.
+void readPropertiesAt(const LawTables& in, const PairSection& p, const UserLaw& law) {
+    std::vector<Material>& materials = in.c.world.materials;
+    const auto [a, b] = p.stated.pair;
+    Material& of = materials[std::size_t(b)];
+    if (of.powder ? a != b : a != kFirstPowder) {
+        p.section->know("properties");
+        return;
+    }
+    const LawProperties none{};
+    const LawProperties* usual = b == kFirstPowder    ? nullptr
+                                 : b == kWallMaterial ? &none
+                                 : of.powder          ? &materials[kFirstPowder].properties
+                                                      : &materials[kWallMaterial].properties;
+    of.properties = readProperties(in.reader, *p.section, law, usual);
+}
+
 /// A law of the user's own: its parameters, and friction and the ratios of the springs to its stiffness.
 void readUser(const LawTables& in) {
     CaseReader& reader = in.reader;
@@ -33,6 +51,7 @@ void readUser(const LawTables& in) {
     const std::vector<MixedKey<ContactParameters>> keys = parametersOf(normalLaw(NormalLaw::User));
     const std::shared_ptr<const UserLaw> law = readUserLaw(reader, in.contact());
     c.dosingLaw.user = law;
+    if (law) c.world.properties = law->properties;
     for (const PairSection& p : in.pairs) {
         const auto [a, b] = p.stated.pair;
         const bool first = p.stated.source == PairSource::None;
@@ -48,6 +67,10 @@ void readUser(const LawTables& in) {
             made.own = readOwn(reader, *p.section, *law, first ? nullptr : &parent.own);
         else
             p.section->know("parameters");
+        if (law)
+            readPropertiesAt(in, p, *law);
+        else
+            p.section->know("properties");
         std::string words;
         if (p.stated.source == PairSource::Mixture) words = mixedWords(p, made, keys);
         if (!words.empty()) words += ": " + meansOf(in, p, "geometric");

@@ -11,6 +11,7 @@
 #include "host/model/named_file.h"
 #include "host/model/particle_list.h"
 #include "host/model/powders.h"
+#include "host/model/read_user_law.h"
 
 namespace vkdose {
 namespace {
@@ -163,7 +164,7 @@ void readList(CaseReader& reader, Section& root, Case& c) {
     std::vector<Diagnostic> faults;
     std::vector<ListedPowder> powders;
     for (const PowderOf& p : powdersOf(c)) powders.push_back({p.name, p.material});
-    c.filling.list = readParticleList(file, faults, powders);
+    c.filling.list = readParticleList(file, faults, powders, propertiesOfLaw(reader, root));
     c.files.push_back(file);
     section.record("list", std::filesystem::absolute(file).lexically_normal().string());
     for (Diagnostic& fault : faults) reader.add(std::move(fault));

@@ -72,22 +72,28 @@ std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact)
     return std::make_shared<const UserLaw>(std::move(reading.law));
 }
 
-std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& section, const UserLaw& law,
-                                               const std::array<double, kMostLawParameters>* above) {
-    std::array<double, kMostLawParameters> own{};
-    Section& table = section.table("parameters");
-    const Node* stated = section.node("parameters");
+namespace {
+
+/// The numbers of a table under the names that a law declares. What it does not state comes from `above`, where it is a
+/// number; null: all must be stated.
+template <std::size_t n>
+std::array<double, n> readNamed(CaseReader& reader, Section& section, const char* key, const UserLaw& law,
+                                const std::vector<std::string>& names, const char* kind,
+                                const std::array<double, n>* above) {
+    std::array<double, n> own{};
+    Section& table = section.table(key);
+    const Node* stated = section.node(key);
     for (std::size_t k = 0; stated != nullptr && k < stated->children.size(); ++k) {
         const std::string& name = stated->children[k].key;
-        if (std::ranges::find(law.parameters, name) != law.parameters.end()) continue;
+        if (std::ranges::find(names, name) != names.end()) continue;
         std::string known;
-        for (const std::string& other : law.parameters) known += (known.empty() ? "" : ", ") + other;
+        for (const std::string& other : names) known += (known.empty() ? "" : ", ") + other;
         table.know(name);
-        reader.fault(table.path(name), fmt::format("is no parameter of {}", law.name),
+        reader.fault(table.path(name), fmt::format("is no {} of {}", kind, law.name),
                      known.empty() ? "remove it: the law declares none" : fmt::format("it declares {}", known));
     }
-    for (std::size_t k = 0; k < law.parameters.size(); ++k) {
-        const std::string& name = law.parameters[k];
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const std::string& name = names[k];
         const Node* node = table.node(name);
         const auto single = [](double x) {  // beyond these a device holds an infinite number, or none
             return x == 0 || (std::abs(x) <= std::numeric_limits<float>::max() &&
@@ -107,19 +113,44 @@ std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& sect
     return own;
 }
 
+}  // namespace
+
+std::array<double, kMostLawParameters> readOwn(CaseReader& reader, Section& section, const UserLaw& law,
+                                               const std::array<double, kMostLawParameters>* above) {
+    return readNamed(reader, section, "parameters", law, law.parameters, "parameter", above);
+}
+
+LawProperties readProperties(CaseReader& reader, Section& section, const UserLaw& law, const LawProperties* usual) {
+    return readNamed(reader, section, "properties", law, law.properties, "property of particles", usual);
+}
+
+std::vector<std::string> propertiesOfLaw(const CaseReader& reader, Section& root) {
+    const Node* contact = root.node("contact");
+    const auto textAt = [&](const char* key) {
+        const Node* node = contact != nullptr ? contact->child(key) : nullptr;
+        return node != nullptr && node->kind == Node::Kind::String ? std::optional(node->string) : std::nullopt;
+    };
+    const std::optional<std::string> name = textAt("law");
+    if (!name || !name->ends_with(".glsl")) return {};
+    std::optional<std::string> text = textAt("law_text");
+    if (!text) text = fileContent(reader.folderOf("contact.law") / *name);
+    return text && !unwritable(*text) ? readLaw(*name, *text).law.properties : std::vector<std::string>();
+}
+
 void refuseUserLaw(CaseReader& reader, std::span<Section* const> sections) {
     constexpr const char* kRemedy = "remove it, or name the file of a law in contact.law";
     for (const char* key : {"law_text", "law_hash"}) {
         sections.front()->know(key);
         if (sections.front()->has(key)) reader.fault(sections.front()->path(key), "is of a law of your own", kRemedy);
     }
-    for (Section* section : sections) {
-        const Node* stated = section->node("parameters");
-        if (stated == nullptr) continue;
-        reader.fault(section->path("parameters"), "is of a law of your own", kRemedy);
-        for (const Node& child : stated->children)
-            reader.fault(section->path("parameters." + child.key), "is of a law of your own", kRemedy);
-    }
+    for (Section* section : sections)
+        for (const std::string table : {"parameters", "properties"}) {
+            const Node* stated = section->node(table);
+            if (stated == nullptr) continue;
+            reader.fault(section->path(table), "is of a law of your own", kRemedy);
+            for (const Node& child : stated->children)
+                reader.fault(section->path(table + "." + child.key), "is of a law of your own", kRemedy);
+        }
 }
 
 }  // namespace vkdose

@@ -4,6 +4,8 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "host/law/user_law.h"
 #include "host/model/case_reader.h"
@@ -12,6 +14,14 @@ namespace vkdose {
 
 /// The law of the file that contact.law names, or of the text that a resolved case holds. Null after a fault.
 std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact);
+
+/// The names of the properties that the law of the case gives each particle; none if it has no such law, or one at
+/// fault, which readUserLaw tells.
+std::vector<std::string> propertiesOfLaw(const CaseReader& reader, Section& root);
+
+/// The properties that `section`'s table `properties` gives a material; what it does not state is `usual`, and must be
+/// stated if there is none.
+LawProperties readProperties(CaseReader& reader, Section& section, const UserLaw& law, const LawProperties* usual);
 
 /// The law's parameters of one class of contacts, from `section`'s table. What that does not state comes from `above`,
 /// the class above it; null: all must be stated.

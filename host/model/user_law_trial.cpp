@@ -40,15 +40,20 @@ std::vector<Probe> probesOf(const Case& c, const PowderSizes& sizes) {
                 const double a = sizes[std::size_t(pair.a)].*size, b = otherSide(c.world, pair, sizes, size);
                 probes.push_back({pair,
                                   size,
-                                  {c.dosingLaw.of(pair).own, reducedSize(a, b) / 2, reducedMass(c.world, pair, a, b),
-                                   c.world.maxOverlapRatio * std::min(a, b), speed}});
+                                  {c.dosingLaw.of(pair).own,
+                                   reducedSize(a, b) / 2,
+                                   reducedMass(c.world, pair, a, b),
+                                   c.world.maxOverlapRatio * std::min(a, b),
+                                   speed,
+                                   {c.world.materials[std::size_t(pair.a)].properties,
+                                    c.world.materials[std::size_t(pair.b)].properties}}});
             }
     }
     return probes;
 }
 
 /// What is wrong with an answer; nothing if it will do.
-std::optional<std::string> wrongIn(const LawPoint& p) {
+std::optional<std::string> wrongIn(const LawPoint& p, const UserLaw& law) {
     const auto answers = [](const char* function, double value) {
         return fmt::format("{} answers {:.6g}", function, value);
     };
@@ -59,6 +64,8 @@ std::optional<std::string> wrongIn(const LawPoint& p) {
     if (!(std::isfinite(p.pull) && p.pull >= 0)) return answers("pull", p.pull) + ", which is not >= 0";
     if (!std::isfinite(p.energy)) return answers("energy", p.energy);
     if (!(std::isfinite(p.reach) && p.reach >= 0)) return answers("reach", p.reach) + ", which is not >= 0";
+    for (std::size_t k = 0; k < law.properties.size(); ++k)
+        if (!std::isfinite(p.flows[k])) return answers((std::string(kLawFlow) + law.properties[k]).c_str(), p.flows[k]);
     return {};
 }
 
@@ -131,7 +138,7 @@ void tryUserLaw(CaseReader& reader, Case& c, const PowderSizes& sizes) {
                        "let contacts break nearer by");
                 return;
             }
-            if (const auto wrong = wrongIn(point)) {
+            if (const auto wrong = wrongIn(point, law)) {
                 refuse(lineOfFunction(law.text, wrong->substr(0, wrong->find(' '))),
                        fmt::format(
                            "{} ({}, overlap {:.4g} m, approach {:.4g} m/s, reduced radius {:.4g} m and mass {:.4g} kg)",

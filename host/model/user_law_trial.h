@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/law/law_program.h"
 #include "host/model/case_reader.h"
 #include "host/model/checks.h"
 
@@ -18,6 +19,7 @@ struct LawLoading {
     double mass = 0;     ///< reduced [kg]
     double deepest = 0;  ///< overlap [m]
     double speed = 0;    ///< of approach, then of parting [m/s]
+    LawSides sides;
 };
 
 /// What the law answers at a point of a loading.
@@ -26,6 +28,7 @@ struct LawPoint {
     double speed = 0;    ///< of approach [m/s]
     double force = 0, stiffness = 0, damping = 0, pull = 0, energy = 0;
     double reach = 0;  ///< the same at all points [m]
+    LawProperties flows{};
 };
 
 /// A law that the compiler refuses.

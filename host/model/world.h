@@ -69,6 +69,8 @@ struct World {
     /// Particles, walls and bodies name theirs by its index; at most kMostMaterials.
     std::vector<Material> materials{{"particle", true, 0}, {"wall", false, 0}, {"coil", false, 0}};
 
+    std::vector<std::string> properties;  ///< names of what a user's law gives each particle
+
     /// Of a powder's particles [kg/m3].
     double density(int material = kFirstPowder) const { return materials.at(std::size_t(material)).density; }
     double& density(int material = kFirstPowder) { return materials.at(std::size_t(material)).density; }

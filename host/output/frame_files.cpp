@@ -170,6 +170,11 @@ vtkhdf::Grid particlesGrid(const Frame& frame, const World& world, std::uint32_t
             for (int d = 0; d < 3; ++d) gone.push_back(static_cast<float>(g[d]));
         grid.pointData.push_back({kPeriodsGone, "", 3, std::move(gone)});
     }
+    for (std::size_t k = 0; k < world.properties.size() && !p.properties.empty(); ++k) {
+        std::vector<double> values;
+        for (const LawProperties& own : p.properties) values.push_back(own[k]);
+        grid.pointData.push_back({world.properties[k], "", 1, std::move(values)});
+    }
     grid.fieldData = fieldsOf(frame);
     return grid;
 }
@@ -255,7 +260,7 @@ std::size_t one(const hdf5::Reader& reader, const std::string& name) {
 
 }  // namespace
 
-void readParticlesFile(std::string bytes, Frame& frame) {
+void readParticlesFile(std::string bytes, Frame& frame, const std::vector<std::string>& properties) {
     const hdf5::Reader reader(std::move(bytes));
     const Columns field(reader, "/VTKHDF/FieldData", 1);
     frame.step = static_cast<std::uint64_t>(field.get<double>("step")[0]);
@@ -291,6 +296,13 @@ void readParticlesFile(std::string bytes, Frame& frame) {
     p.gone.clear();
     if (reader.has(std::string("/VTKHDF/PointData/") + kPeriodsGone))
         for (const Vec3& gone : data.vector(kPeriodsGone)) p.gone.emplace_back(gone);
+    p.properties.clear();
+    for (std::size_t k = 0; k < properties.size(); ++k) {
+        if (!reader.has("/VTKHDF/PointData/" + properties[k])) continue;
+        p.properties.resize(n);
+        const std::vector<double> values = data.get<double>(properties[k]);
+        for (std::size_t i = 0; i < n; ++i) p.properties[i].at(k) = values[i];
+    }
     p.status.clear();
     for (const std::uint32_t s : data.get<std::uint32_t>("status")) p.status.push_back(static_cast<Status>(s));
 }

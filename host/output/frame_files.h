@@ -27,7 +27,7 @@ std::vector<vtkhdf::Array> fieldsOf(const Frame& frame);
 
 /// Read the contents of the two files back into `frame`: step, time, phase, dose and angle too. Throw hdf5::Error if
 /// the files hold something else.
-void readParticlesFile(std::string bytes, Frame& frame);
+void readParticlesFile(std::string bytes, Frame& frame, const std::vector<std::string>& properties = {});
 void readContactsFile(std::string bytes, Frame& frame);
 
 }  // namespace vkdose

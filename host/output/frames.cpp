@@ -78,7 +78,8 @@ std::size_t settledOf(const std::vector<FrameEntry>& entries) {
     return settled;
 }
 
-Frames::Frames(const fs::path& run) : folder_(run / kFramesFolder) {
+Frames::Frames(const fs::path& run, std::vector<std::string> properties)
+    : folder_(run / kFramesFolder), properties_(std::move(properties)) {
     const fs::path index = folder_ / kFramesIndex;
     if (fs::exists(index)) entries_ = framesListed(content(index), index);
 }
@@ -90,7 +91,7 @@ Frame Frames::read(const FrameEntry& entry) const {
         throw OutputError(fmt::format("{} lists frame {}, but there is no file {}", (folder_ / kFramesIndex).string(),
                                       entry.number, file.string()));
     try {
-        readParticlesFile(content(file), frame);
+        readParticlesFile(content(file), frame, properties_);
         const fs::path contacts = folder_ / frameFile(kContactsFrame, entry.number);
         if (!fs::exists(contacts)) return frame;
         file = contacts;

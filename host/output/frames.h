@@ -68,7 +68,8 @@ class Frames {
   public:
     /// Opens the frames of the run with this output folder; there are none if it kept none. Throws OutputError if the
     /// files there cannot be read.
-    explicit Frames(const std::filesystem::path& run);
+    /// `properties` of a user's law are read too, if the frames have them (World::properties).
+    explicit Frames(const std::filesystem::path& run, std::vector<std::string> properties = {});
 
     const std::vector<FrameEntry>& entries() const { return entries_; }
 
@@ -77,6 +78,7 @@ class Frames {
 
   private:
     std::filesystem::path folder_;
+    std::vector<std::string> properties_;
     std::vector<FrameEntry> entries_;
 };
 

@@ -231,7 +231,8 @@ void RunFolder::storeTables() {
 
 void RunFolder::finish(const Case& c, const RunResult& result) {
     storeTables();
-    if (result.endState) writeParticles(folder_ / "particles.csv", result.particles, powderNames(c));
+    if (result.endState)
+        writeParticles(folder_ / "particles.csv", result.particles, powderNames(c), c.world.properties);
     RunHistory history = historyOf(folder_, c, result);
     writeCycles(folder_ / kCyclesName, history.cycles);
     history.origin = role_.origin;
@@ -254,11 +255,16 @@ std::vector<std::string> powderNames(const Case& c) {
     return names;
 }
 
-void writeParticles(const fs::path& file, const Particles& p, const std::vector<std::string>& powders) {
-    CsvFile csv(file, csvHeader(kParticleColumns) + (powders.empty() ? "" : ",powder"));
+void writeParticles(const fs::path& file, const Particles& p, const std::vector<std::string>& powders,
+                    const std::vector<std::string>& properties) {
+    std::string header = csvHeader(kParticleColumns) + (powders.empty() ? "" : ",powder");
+    for (const std::string& name : properties) header += "," + name;
+    CsvFile csv(file, header);
     for (std::size_t i = 0; i < p.size(); ++i) {
         const ParticleRow row{i, p.position[i], p.velocity[i], p.spin[i], p.radius[i], p.status[i]};
-        csv.line(csvRow(kParticleColumns, row) + (powders.empty() ? "" : "," + powders.at(p.material[i])));
+        std::string line = csvRow(kParticleColumns, row) + (powders.empty() ? "" : "," + powders.at(p.material[i]));
+        for (std::size_t k = 0; k < properties.size(); ++k) line += fmt::format(",{:.17g}", p.properties.at(i)[k]);
+        csv.line(line);
     }
     csv.flush();
 }

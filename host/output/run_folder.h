@@ -83,9 +83,10 @@ class RunFolder : public RunObserver {
 
 /// particles.csv: id, position [m], velocity [m/s], spin [rad/s], radius [m] and status of every particle, with enough
 /// digits to read the same numbers back. With `powders`, the names by the material (powderNames), the name of its
-/// powder too. Throws OutputError if it cannot be written.
+/// powder too; with `properties` what a user's law gives each particle, under these names. Throws OutputError if it
+/// cannot be written.
 void writeParticles(const std::filesystem::path& file, const Particles& particles,
-                    const std::vector<std::string>& powders = {});
+                    const std::vector<std::string>& powders = {}, const std::vector<std::string>& properties = {});
 /// A line for each cycle, or no file where there is none. Throws OutputError likewise.
 void writeCycles(const std::filesystem::path& file, const Cycles& cycles);
 /// Names of the powders by their material; none with one powder.

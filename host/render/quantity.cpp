@@ -50,6 +50,10 @@ double meanMass(const Case& c) {
     return filled.particles.size() > 0 ? filled.mass / double(filled.particles.size()) : 0.0;
 }
 
+std::size_t propertyOf(Quantity quantity) {
+    return static_cast<std::size_t>(static_cast<int>(quantity) - static_cast<int>(Quantity::Property));
+}
+
 /// Sets the ends apart, so that equal values have a colour too.
 void spread(Scale& s, const Extremes& e) {
     s.low = e.none() ? 0 : e.low;
@@ -91,10 +95,14 @@ void apply(const Range& range, Scale& s) {
 
 }  // namespace
 
-std::optional<Quantity> quantityNamed(std::string_view name) {
-    const auto found = std::find(std::begin(kQuantityNames), std::end(kQuantityNames), name);
-    if (found == std::end(kQuantityNames)) return std::nullopt;
-    return Quantity(found - std::begin(kQuantityNames));
+std::optional<Quantity> quantityNamed(std::string_view name, const std::vector<std::string>& properties) {
+    const auto among = [&](const auto& names, Quantity first) -> std::optional<Quantity> {
+        const auto found = std::find(std::begin(names), std::end(names), name);
+        if (found == std::end(names)) return {};
+        return static_cast<Quantity>(static_cast<int>(first) + int(found - std::begin(names)));
+    };
+    const std::optional<Quantity> usual = among(kQuantityNames, Quantity::KineticEnergy);
+    return usual ? usual : among(properties, Quantity::Property);
 }
 
 std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& frame, const Particles* fill) {
@@ -107,6 +115,10 @@ std::vector<double> valuesOf(Quantity quantity, const Case& c, const Frame& fram
         return numbers;
     }
     std::vector<double> values(p.size(), std::numeric_limits<double>::quiet_NaN());
+    if (quantity >= Quantity::Property) {
+        for (std::size_t i = 0; i < p.properties.size(); ++i) values[i] = p.properties[i].at(propertyOf(quantity));
+        return values;
+    }
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double square = glm::dot(p.velocity[i], p.velocity[i]);
         if (quantity == Quantity::KineticEnergy) values[i] = 0.5 * massOf(c.world, p, i) * square;
@@ -181,6 +193,9 @@ Scale scaleFor(Quantity quantity, const Case& c, const std::vector<double>& valu
             s.low = -0.5;
             s.high = s.bands - 0.5;
             break;
+        default:
+            s = {c.world.properties.at(propertyOf(quantity))};
+            spread(s, e);
     }
     apply(range, s);
     return s;

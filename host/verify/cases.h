@@ -97,6 +97,7 @@ void jkrLedger(Stage& stage);
 // user_law.cpp
 void userLawRemembers(Stage& stage);
 void userLawReaches(Stage& stage);
+void userLawFlows(Stage& stage);
 
 // materials.cpp
 void materialsHertz(Stage& stage);

@@ -67,6 +67,7 @@ std::vector<Scene> scenes() {
         {"jkr/ledger", "what an adhesive impact that slips loses", jkrLedger},
         {"user-law/memory", "a sphere meets a wall under a law with a memory that a user wrote", userLawRemembers},
         {"user-law/reach", "spheres meet under such a law that acts beyond touch", userLawReaches},
+        {"user-law/flow", "what such a law gives spheres flows between them, and to a wall", userLawFlows},
         {"materials/hertz", "elastic spheres of two powders collide", materialsHertz},
         {"materials/luding", "plastic spheres of two powders collide", materialsLuding},
         {"materials/sliding", "spheres of two powders slide on a floor and on a body", materialsSliding},

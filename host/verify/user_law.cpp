@@ -37,6 +37,15 @@ float energy(Contact c) { return 0.5 * k * max(c.overlap, 0.0) * max(c.overlap, 
 float reach(Contact c) { return length; }
 )";
 
+/// A spring that is at rest at an overlap, through which heat flows.
+constexpr const char* kHeat = R"(
+parameter float k, rest, h;
+particle float heat;
+float force(Contact c) { return k * (c.overlap - rest); }
+float stiffness(Contact c) { return k; }
+float flow_heat(Contact c) { return h * (heat.y - heat.x); }
+)";
+
 ContactLaw lawOf(const char* text, const std::vector<double>& parameters, double reach) {
     const LawReading reading = readLaw("verify.glsl", text);
     if (!reading.faults.empty()) throw std::logic_error(reading.faults.front().problem);
@@ -103,6 +112,31 @@ void userLawReaches(Stage& stage) {
     stage.check("restitution", "-", std::sqrt(0.7), apart / speed, {1e-3, "the step in which the last pull ends"});
     stage.check("loss", "J", pull * length, trial.energy().sum.plastic, {5e-3, "the step in which the last pull ends"});
     stage.check("contacts left", "-", 0, static_cast<double>(trial.contacts().size()), {0, "they part", 1});
+}
+
+// Two spheres and a sphere at a wall are at rest, and what a user's law gives them flows until it is even.
+void userLawFlows(Stage& stage) {
+    const double k = 400, rest = kRadius / 100, h = 2, dt = 1e-5;
+    constexpr int kSteps = 20000;
+    RuledWorld world = space({}, dt);
+    world.law = lawOf(kHeat, {k, rest, h}, 0);
+    world.properties = world.law.user->properties;
+    world.walls.push_back(geometry::Plane{Vec3(0, -10 * kRadius, 0), Vec3(0, 1, 0)});
+    world.materials[kWallMaterial].properties = {3};
+    Particles spheres;
+    spheres.add(Vec3(0), kRadius);
+    spheres.add(Vec3(2 * kRadius - rest, 0, 0), kRadius);
+    spheres.add(Vec3(0, -9 * kRadius - rest, 0), kRadius);
+    spheres.properties = {{2}, {1}, {-1}};
+    Trial trial(stage, world, spheres);
+    trial.advance(kSteps);
+    const std::vector<LawProperties> now = trial.now().properties;
+    // A step takes 2 h dt of the difference, at the wall h dt.
+    const double even = std::pow(1 - 2 * h * dt, kSteps), atWall = std::pow(1 - h * dt, kSteps);
+    const Tolerance tolerance{1e-5, "single precision of the flow, summed over 20,000 steps"};
+    stage.check("difference of two spheres", "-", even, now[0][0] - now[1][0], tolerance);
+    stage.check("sum of two spheres", "-", 3, now[0][0] + now[1][0], {1e-9, "what one loses the other has"});
+    stage.check("difference to a wall", "-", 4 * atWall, 3 - now[2][0], tolerance);
 }
 
 }  // namespace vkdose::verify

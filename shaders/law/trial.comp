@@ -10,9 +10,10 @@ layout(local_size_x = 1) in;
 struct Loading {
     vec4 contact;  // reduced radius [m], reduced mass [kg], deepest overlap [m], speed [m/s]
     vec4 own[kOwnParameters / 4u];
+    vec4 sides[2];  // their properties
 };
 layout(std430, binding = 0) readonly buffer LoadingBuffer { Loading loadings[]; };
-// Of each point: overlap, speed, force, stiffness; damping, pull, energy, reach.
+// Of each point: overlap, speed, force, stiffness; damping, pull, energy, reach; flows.
 layout(std430, binding = 1) writeonly buffer AnswerBuffer { vec4 answers[]; };
 // Of each loading: what the law remembers from point to point.
 layout(std430, binding = 2) buffer MemoryBuffer { vec4 memories[]; };
@@ -31,6 +32,7 @@ void main() {
     memory[1] = vec4(0.0);
     userParameters(p);
     userRecall(memory);
+    userSides(vec4(0.0), vec4(0.0));
     float reach = userReach(UserContact(0.0, 0.0, contact.x, 0.0));
     bool presses = k < kPart;
     float share = float(presses ? k + 1u : 2u * kPart - k) / float(kPart);
@@ -40,11 +42,13 @@ void main() {
     memory[0] = memories[2u * which];
     memory[1] = memories[2u * which + 1u];
     userRecall(memory);
+    userSides(loadings[which].sides[0], loadings[which].sides[1]);
     float force = Userforce(c);
     userKeep(memory);
     memories[2u * which] = memory[0];
     memories[2u * which + 1u] = memory[1];
-    uint at = 2u * (kPoints * which + k);
+    uint at = 3u * (kPoints * which + k);
     answers[at] = vec4(c.overlap, c.speed, force, Userstiffness(c));
     answers[at + 1u] = vec4(userDamping(c), userPull(c), userEnergy(c), reach);
+    answers[at + 2u] = userFlows(c);
 }

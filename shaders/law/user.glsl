@@ -16,11 +16,13 @@ bool answersSize(float x) { return x >= 0.0 && x <= 3.4e38; }
 NormalAnswer normalAnswer(ContactParams p, Meeting m, float speed, inout History h) {
     userParameters(p);
     userRecall(h.own);
+    userSides(propertiesOfI, propertiesOfJ);
     UserContact c = UserContact(m.overlap, speed, 0.5 * m.reduced, m.mass);
     float force = Userforce(c), before = h.own[1].w;
     userKeep(h.own);
     float stiffness = Userstiffness(c), damping = userDamping(c), pull = userPull(c);
     userStored = userEnergy(c);
+    userFlow = userFlows(c);
     bool sound = stiffness > 0.0 && stiffness <= p.normal.x && answersSize(damping) && answersSize(pull);
 #ifdef ENERGY_BOOK
     sound = sound && answersSize(abs(userStored));

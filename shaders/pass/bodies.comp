@@ -10,6 +10,7 @@
 #include "pass/bodies.glsl"
 #include "pass/history.glsl"
 #include "pass/loads.glsl"
+#include "pass/sides.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
@@ -110,6 +111,7 @@ void main() {
     if (motion.velocity.w == float(kCoilMaterial)) law = ofCoil;
     if (ownLaws()) law = lawOf(pairIndex(me.material, uint(motion.velocity.w)));
     density = densityOf(me.material, density);
+    meetMaterial(i, uint(motion.velocity.w));
 
     float radius = me.sphere.radius, reduced = reducedAtWall(radius, motion.centre.w);
     if (openNearby(slot)) nearbyCount = nearby[nearbyStart];
@@ -129,6 +131,7 @@ void main() {
     vec3 force = vec3(0.0), torque = vec3(0.0);
     vec3 moment = vec3(0.0);  // about the body's pivot, which may move
     float overlap = 0.0, gap = 0.0, work = 0.0, booked = 0.0;
+    vec4 flow = vec4(0.0);
 #ifdef ENERGY_BOOK
     WallMotion moving = WallMotion(motion.velocity.xyz, motion.spin.xyz, motion.centre.xyz);
     openSlotBook();
@@ -188,6 +191,7 @@ void main() {
         bookPlace(law, springDt, moving, reduced, slot, place, me, Overlap(feature.depth, normal), feature.share, r,
                   known, exerted, before, h);
 #endif
+        flow += flowNow();
         force += f.force;
         torque += f.torque;
         moment += cross(point - motion.pivot.xyz, f.force) + f.couple;
@@ -203,5 +207,6 @@ void main() {
     booked = slotBook.flow.w;
 #endif
     writeTorque(slot, vec4(torque, booked));
+    writeFlow(slot, flow);
     if (overlap != 0.0) addLoad(body, i, force, moment, work);
 }

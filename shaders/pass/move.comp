@@ -81,6 +81,9 @@ void main() {
     // A particle out of the motion has no links, so that all it does is copy itself.
     vec3 force = vec3(0.0), torque = vec3(0.0);
     float overlap = 0.0;
+#ifdef OWN_PROPERTIES
+    vec4 flow = vec4(0.0);
+#endif
 #ifdef ENERGY_BOOK
     float bodyWork = 0.0;
     vec4 normal = vec4(0.0), sliders = vec4(0.0);
@@ -91,6 +94,10 @@ void main() {
         force += (link & 1u) == 0u ? f.xyz : -f.xyz;
         torque += t.xyz;
         overlap = max(overlap, f.w);
+#ifdef OWN_PROPERTIES
+        vec4 gained = forcesAt(flowIndex(link >> 1u));
+        flow += (link & 1u) == 0u ? gained : -gained;
+#endif
 #ifdef ENERGY_BOOK
         bodyWork += link >> 1u >= springSlotCount() ? t.w : 0.0;
         if ((link & 1u) == 0u) {
@@ -160,6 +167,15 @@ void main() {
     writeState(to, kPosition, i, moving ? vec4(high, radius) : position,
                moving ? vec4(low, POWDERS == 1u ? 0.0 : residue.w) : residue);
     writeSpeedLow(i, moving ? vec4(speed.low, keeps.x) : velocityLow, moving ? vec4(turning.low, keeps.y) : spinLow);
+#ifdef OWN_PROPERTIES
+    vec4 property = forcesAt(propertyIndex(i, 0u)), low4 = forcesAt(propertyIndex(i, 1u));
+    Two3 three = twoGrown(property.xyz, low4.xyz, dt * flow.xyz);
+    Two3 last = twoGrown(property.www, low4.www, dt * flow.www);
+    if (moving) {
+        forces[propertyIndex(i, 0u)] = vec4(three.high, last.high.x);
+        forces[propertyIndex(i, 1u)] = vec4(three.low, last.low.x);
+    }
+#endif
     writeState(to, kVelocity, i, moving ? vec4(velocity, max(velocity4.w, overlap)) : velocity4,
                moving ? vec4(spin, float(now)) : spin4);
 }

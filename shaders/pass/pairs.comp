@@ -6,6 +6,7 @@
 #include "shared/buffers.glsl"
 #include "pass/body.glsl"
 #include "pass/history.glsl"
+#include "pass/sides.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
 #endif
@@ -41,6 +42,7 @@ void main() {
     float mass =
         reducedMass(sphereMass(densityOf(a.material, density), ra), sphereMass(densityOf(b.material, density), rb));
     Meeting m = Meeting(o.normal, o.depth, reduced, mass, velocity, a.spin - b.spin, 1.0);
+    meetParticles(who.x, who.y);
     Response r = contactResponse(law, chosen, m, springDt, h);
     vec3 turn = cross(o.normal, r.sliding);
 
@@ -48,6 +50,7 @@ void main() {
     writeForce(slot, touching ? vec4(r.force, o.depth / min(ra, rb)) : vec4(0.0));
     writeTorques(slot, touching ? vec4(r.couple - leverA * turn, 0.0) : vec4(0.0),
                  touching ? vec4(-r.couple - leverB * turn, 0.0) : vec4(0.0));
+    writeFlow(slot, touching ? flowNow() : vec4(0.0));
 #ifdef ENERGY_BOOK
     bookPair(law, springDt, slot, a, b, o, r, touching, old, h);
 #endif

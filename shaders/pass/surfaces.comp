@@ -11,6 +11,7 @@
 #include "shared/buffers.glsl"
 #include "pass/history.glsl"
 #include "pass/loads.glsl"
+#include "pass/sides.glsl"
 #include "pass/wall.glsl"
 #ifdef ENERGY_BOOK
 #include "pass/slot_books.glsl"
@@ -119,10 +120,12 @@ void main() {
         }
         History h = memory.springs;
         Response r;
+        meetMaterial(who.x, materialOfWall(p));
         WallForce f = meetWall(me, o, 1.0, reduced, law, chosen, density, 0.0, springDt, vec3(0.0), vec3(0.0), h, r);
         keepHistory(slot, h, touching);
         writeForce(slot, touching ? vec4(f.force, o.depth / me.sphere.radius) : vec4(0.0));
         writeTorque(slot, touching ? vec4(f.torque, 0.0) : vec4(0.0));
+        writeFlow(slot, touching ? flowNow() : vec4(0.0));
         if (WALL_LOADS != 0u && touching) {
             vec3 point = me.sphere.high - o.normal * (me.sphere.radius - 0.5 * o.depth);
             addLoad(BODIES + surface, who.x, f.force, cross(point, f.force) + f.couple, 0.0);

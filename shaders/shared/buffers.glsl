@@ -204,6 +204,11 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #define bodySlots bodySlotCount()
 #define bodies BODIES
 #define bodied (BODIES > 0u ? 1u : 0u)
+#ifdef OWN_PROPERTIES
+#define propertied 1u
+#else
+#define propertied 0u
+#endif
 #define loaded (BODIES + WALL_LOADS * SURFACES)
 #define slots slotCount()
 #define historyParts kParts
@@ -223,6 +228,7 @@ bool ofPair(uint slot) { return slot < MEMBERS * push.pairSlots; }
 #undef bodySlots
 #undef bodies
 #undef bodied
+#undef propertied
 #undef slots
 #undef historyParts
 #undef bodyHistory

@@ -112,6 +112,7 @@ SHARED_CONST kLawUser = 4u;               // of a file of the case's own (law/us
 SHARED_CONST kLawKinds = 16u;             // more than there can be
 SHARED_CONST kLimitAbsolute = kLawKinds;  // a bit beside the number of a law: friction is limited by the force's size
 SHARED_CONST kOwnParameters = 16u;  // most parameters of such a law; vkdose::kMostLawParameters
+SHARED_CONST kOwnProperties = 4u;   // most that it gives each particle; vkdose::kMostLawProperties
 SHARED_CONST kOwnMemories = 7u;     // most numbers that it remembers of a contact; vkdose::kMostLawMemories
 SHARED_CONST kUserReaches = 31u;    // a bit beside those of the laws: the user's has a reach
 // Laws whose contacts hold on beyond touch, and laws that keep the overlap of the last step, a bit each.
@@ -164,6 +165,7 @@ struct Member {
                                            // beyond a plane: its normal, then its place along it in w [m]; 2 a box: its
                                            // low, then its high corner [m]
     vec4 densities[kMostMaterials / 4u];   // of each material's particles [kg/m3]
+    vec4 properties[kMostMaterials];       // of each material's walls, which a user's law asks for
     vec4 period[2];  // xyz: length of the domain in directions that repeat, else 0, in two floats [m]
 };
 // Where in a member some of its vectors are.
@@ -172,7 +174,8 @@ SHARED_CONST kVectorSurface = kMostPairs * kContactVectors;
 SHARED_CONST kVectorGravity = kVectorSurface + 4u * kMaxSurfaces;
 SHARED_CONST kVectorOutlets = kVectorGravity + 7u;
 SHARED_CONST kVectorDensities = kVectorOutlets + 2u * kMaxRegionOutlets;
-SHARED_CONST kVectorPeriod = kVectorDensities + kMostMaterials / 4u;
+SHARED_CONST kVectorProperties = kVectorDensities + kMostMaterials / 4u;
+SHARED_CONST kVectorPeriod = kVectorProperties + kMostMaterials;
 SHARED_CONST kMemberVectors = kVectorPeriod + 2u;
 
 // --- control block: decisions and reports of the device -----------------------------------------------------------

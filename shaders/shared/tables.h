@@ -82,10 +82,14 @@ ROWS(books, slotBookIndex, kBookFields* particles, energyBook* kBookFields, slot
 TABLE(11, bodyLoads, float, kBodyLoads* loaded* particles, the loads on bodies and walls)
 ROWS(bodyLoads, bodyLoadIndex, 0, kBodyLoads* loaded, particles)
 // Of each slot: force on the first body [N]; w: overlap over the smaller radius. Then of each body slot and place: the
-// force there; w: overlap [m].
-VIEWED(12, forces, vec4, slots + kMaxBodyTouches * bodySlots, the contact forces)
+// force there; w: overlap [m]. Then, if a user's law gives particles properties, of each slot what flows to the first
+// body, and of each particle its properties and their low parts (not in the anchors, which the passes of bodies lack).
+VIEWED(12, forces, vec4, (1 + propertied) * slots + kMaxBodyTouches * bodySlots + 2 * propertied * particles,
+       the contact forces)
 ROW(forces, forceIndex, 0, slots)
 ROWS(forces, bodyForceIndex, slots, bodySlots, kMaxBodyTouches)
+ROW(forces, flowIndex, slots + kMaxBodyTouches * bodySlots, propertied* slots)
+ROWS(forces, propertyIndex, (1 + propertied) * slots + kMaxBodyTouches * bodySlots, propertied* particles, 2)
 // Of each slot: torque on the first body [N m]; w: of a body slot with the energy book the work of the body in the step
 // [J]. Torque on the second body.
 VIEWED(13, torques, vec4, 2 * slots, the contact torques)

@@ -145,3 +145,81 @@ TEST_CASE("what a slip in the name of a law's function was meant to be is asked"
     CHECK(reading.faults[0].line == 4);
     CHECK_THAT(reading.faults[0].remedy, Catch::Contains("damping"));
 }
+
+TEST_CASE("a property of particles is declared, read and flows, and a slip in it is told") {
+    const std::string law = kSpring + "particle float heat, charge;\n";
+    const LawReading reading =
+        readLaw("heat.glsl", law + "float flow_charge(Contact c) { return charge.y - charge.x; }\n");
+    REQUIRE(reading.faults.empty());
+    CHECK(reading.law.properties == std::vector<std::string>{"heat", "charge"});
+    CHECK(reading.law.flows == std::vector<char>{0, 1});
+    CHECK_THAT(reading.law.shader, Catch::Contains("vec2 Userheat, Usercharge;") &&
+                                       Catch::Contains("Usercharge = vec2(i.y, j.y);") &&
+                                       Catch::Contains("return vec4(0.0, Userflow_charge(c), 0.0, 0.0);"));
+    const auto told = [](const std::string& text) {
+        const LawReading bad = readLaw("heat.glsl", text);
+        REQUIRE(bad.faults.size() == 1);
+        return bad.faults[0].problem + "; " + bad.faults[0].remedy;
+    };
+    CHECK_THAT(told(law + "float flow_charg(Contact c) { return 0.0; }\n"),
+               Catch::Contains("nobody calls the function flow_charg; did you mean flow_charge?"));
+    CHECK_THAT(
+        told(law + "float pull(Contact c) { heat.x = 1.0; return 0.0; }\n"),
+        Catch::Contains("heat is a property of particles, and pull changes it; say by float flow_heat(Contact c)"));
+    CHECK_THAT(told("particle float radius;\n" + kSpring), Catch::Contains("particles have a radius already"));
+    CHECK_THAT(told("particle float a, b, c, d, e;\n" + kSpring), Catch::Contains("there is room for 4"));
+    CHECK_THAT(told(law + "float damping(Contact c) { particle float x; return 0.0; }\n"),
+               Catch::Contains("a particle is declared inside of damping"));
+    CHECK_THAT(told(law + "float flow_heat(float x) { return x; }\n"),
+               Catch::Contains("flow_heat has another signature; write float flow_heat(Contact c) { ... }"));
+}
+
+TEST_CASE("properties come from the case's tables and from a list, and walls have none unless they state them") {
+    const Folder folder;
+    folder.write("heat.glsl", kSpring + "particle float heat, charge;\n");
+    folder.write("two.csv", "x,y,z,r,charge\n0,0,0,1e-3,7\n0.02,0,0,1e-3,8\n");
+    const auto answering = [](const UserLaw&, const std::vector<LawLoading>& loadings) {
+        std::vector<std::vector<LawPoint>> answers;
+        for (const LawLoading& loading : loadings) {
+            answers.emplace_back();
+            for (std::size_t k = 0; k < kPoints; ++k) answers.back().push_back(answerAt(loading, k, 0));
+        }
+        return answers;
+    };
+    const std::string text =
+        "boundaries = \"none\"\n[particles]\ndensity = 2500.0\nlist = \"two.csv\"\n[contact]\nlaw = \"heat.glsl\"\n"
+        "friction = 0.3\n[contact.parameters]\nk = 1000.0\n[contact.properties]\nheat = 20.0\ncharge = 1.0\n"
+        "[contact.coil.properties]\nheat = 90.0\n[settle]\ntime_s = 0.001\n";
+    const auto load = [&](const std::vector<std::string>& overrides = {}) {
+        setLawTrial(answering);
+        try {
+            Case c = loadCase(folder.write("case.toml", text), overrides);
+            setLawTrial({});
+            return c;
+        } catch (...) {
+            setLawTrial({});
+            throw;
+        }
+    };
+    const Case c = load();
+    CHECK(c.world.properties == std::vector<std::string>{"heat", "charge"});
+    CHECK(c.world.materials[kWallMaterial].properties == LawProperties{});
+    CHECK(c.world.materials[kCoilMaterial].properties == LawProperties{90, 0});
+    const Particles p = insertParticles(c).particles;
+    CHECK(p.properties == std::vector<LawProperties>{{20, 7}, {20, 8}});
+    CHECK(load({"contact.wall.properties.heat=50"}).world.materials[kCoilMaterial].properties == LawProperties{90, 0});
+    CHECK_THROWS_WITH(load({"contact.properties.heat=\"warm\""}), Catch::Contains("contact.properties.heat"));
+    CHECK_THROWS_WITH(
+        load({"contact.properties.hot=1"}),
+        Catch::Contains("contact.properties.hot = 1: is no property of particles of heat.glsl; it declares "
+                        "heat, charge"));
+    folder.write("two.csv", "x,y,z,r,mood\n0,0,0,1e-3,7\n0.02,0,0,1e-3,8\n");
+    CHECK_THROWS_WITH(load(), Catch::Contains("mood: unknown column"));
+    // The resolved case holds the law's text and the properties, and gives the same particles.
+    folder.write("two.csv", "x,y,z,r,charge\n0,0,0,1e-3,7\n0.02,0,0,1e-3,8\n");
+    const std::string resolved = load().resolved;
+    setLawTrial(answering);
+    const Case again = loadResolvedCase(resolved, "case.toml");
+    setLawTrial({});
+    CHECK(insertParticles(again).particles.properties == p.properties);
+}

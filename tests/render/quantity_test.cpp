@@ -112,3 +112,22 @@ TEST_CASE("a range is taken in the unit of the bar, an empty one refused") {
     CHECK_FALSE(render::quantityNamed("temperature"));
     CHECK(render::quantityNamed("fill-layer") == Quantity::FillLayer);
 }
+
+TEST_CASE("what a user's law gives each particle is a quantity too, from its least to its largest value") {
+    Case c = mini();
+    c.world.properties = {"charge", "heat"};
+    Frame frame;
+    frame.particles.add({0, 0, 0}, 1e-3);
+    frame.particles.add({0.01, 0, 0}, 1e-3);
+    frame.particles.properties = {{1, 20}, {2, 30}};
+    const auto heat = render::quantityNamed("heat", c.world.properties);
+    REQUIRE(heat);
+    CHECK(render::valuesOf(*heat, c, frame, nullptr) == std::vector<double>{20, 30});
+    const Scale s = render::scaleFor(*heat, c, {20, 30});
+    CHECK(s.title == "heat");
+    CHECK(s.low == 20);
+    CHECK(s.high == 30);
+    CHECK_FALSE(render::quantityNamed("cold", c.world.properties));
+    frame.particles.properties.clear();
+    CHECK(std::isnan(render::valuesOf(*heat, c, frame, nullptr)[1]));
+}

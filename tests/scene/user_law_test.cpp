@@ -277,3 +277,105 @@ TEST_CASE("the reference ends at an answer that is no number, and names the law"
     reference->load(w, threeSpheres());
     CHECK_THROWS_WITH(reference->advance(400, 0), Catch::Contains("no longer finite") && Catch::Contains("test.glsl"));
 }
+
+namespace {
+
+/// Heat flows where spheres touch, and the warmer they are the stiffer they get.
+const char* const kHeat = R"(
+parameter float k, h;
+particle float heat, age;
+float force(Contact c) { return k * (1.0 + heat.x + heat.y) * c.overlap; }
+float stiffness(Contact c) { return 4.0 * k; }
+float damping(Contact c) { return 0.01; }
+float flow_heat(Contact c) { return h * (heat.y - heat.x); }
+)";
+
+RuledWorld warmBowl() {
+    RuledWorld w = bowl();
+    w.law = paperLaw(0.3);
+    w.law.user = lawOf(kHeat);
+    for (ContactParameters& p : w.law.pairs) p = userOf(p, *w.law.user, {{"k", 4000}, {"h", 40}});
+    for (ContactParameters& p : w.law.pairs) p.kt = p.kr = p.kTo = 0.25, p.gammaT = p.gammaR = p.gammaTo = 0;
+    w.properties = w.law.user->properties;
+    w.materials[kWallMaterial].properties = {0.25, 0};
+    return w;
+}
+
+Particles warmSpheres() {
+    Particles p = threeSpheres();
+    p.properties = {{1, 5}, {0.1, 6}, {0.5, 7}};
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("what flows between particles by a user's law is the same on device and reference, and what does not stays") {
+    const RuledWorld w = warmBowl();
+    auto device = gpu(), reference = makeReferenceBackend();
+    device->load(w, warmSpheres());
+    reference->load(w, warmSpheres());
+    for (int batch = 0; batch < 8; ++batch) {
+        device->advance(50, 0);
+        reference->advance(50, 0);
+        const Particles p = device->particles(), q = reference->particles();
+        CHECK(farthestApart(*device, *reference) < 1e-8);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            CHECK(near(p.properties[i][0], q.properties[i][0], 1, 1e-5));
+            CHECK(p.properties[i][1] == q.properties[i][1]);
+        }
+    }
+    const Particles p = device->particles();
+    CHECK(p.properties[0][0] < 0.99);
+    CHECK(p.properties[1][0] > 0.101);
+    CHECK(p.properties[2][1] == 7);
+    requireClean(*device);
+}
+
+TEST_CASE("the heat that one sphere loses another has, and walls give and take") {
+    RuledWorld w = warmBowl();
+    w.walls.clear();
+    w.bodies.clear();
+    Particles pair;
+    pair.add({0, 0, 0}, single(1e-3), {0.05, 0, 0});
+    pair.add({single(1.99e-3), 0, 0}, single(1e-3));
+    pair.properties = {{1, 0}, {0, 0}};
+    auto device = gpu();
+    device->load(w, pair);
+    device->advance(20, 0);
+    const Particles now = device->particles();
+    CHECK(now.properties[1][0] > 1e-3);
+    CHECK(near(now.properties[0][0] + now.properties[1][0], 1, 1, 1e-13));  // two floats keep what one would round
+    requireClean(*device);
+}
+
+TEST_CASE("a run whose particles have properties goes on from a snapshot, and in an ensemble, with the same bits") {
+    RuledWorld w = warmBowl();
+    w.energyBook = GENERATE(false, true);
+    auto whole = gpu(), resumed = gpu(byAddress());
+    whole->load(w, warmSpheres());
+    whole->advance(400, 0);
+    resumed->load(w, warmSpheres());
+    resumed->restore(whole->snapshot());
+    auto reference = makeReferenceBackend(), again = makeReferenceBackend();
+    reference->load(w, warmSpheres());
+    reference->advance(400, 0);
+    again->load(w, warmSpheres());
+    again->restore(reference->snapshot());
+    for (Backend* backend : {whole.get(), resumed.get(), reference.get(), again.get()}) backend->advance(400, 0);
+    CHECK(sameBits(*whole, *resumed));
+    CHECK(whole->particles().properties == resumed->particles().properties);
+    CHECK(reference->particles().properties == again->particles().properties);
+    auto together = gpuEnsemble(2);
+    std::thread other([&] {
+        Particles cold = warmSpheres();
+        for (LawProperties& own : cold.properties) own = {};
+        together[1]->load(w, cold);
+        together[1]->advance(800, 0);
+    });
+    together[0]->load(w, warmSpheres());
+    together[0]->advance(800, 0);
+    other.join();
+    CHECK(together[0]->particles().properties == whole->particles().properties);
+    CHECK(together[1]->particles().properties != whole->particles().properties);
+    requireClean(*resumed);
+}

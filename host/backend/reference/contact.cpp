@@ -60,11 +60,13 @@ struct Normal {
     NormalAnswer answer;
     double kept;        ///< share of their length
     double stored = 0;  ///< as a user's law says [J]
+    LawProperties flows{};
 };
 
 /// Of a user's law. Answers that its trial would have refused make the force no number, which ends the run.
 Normal userNormal(const ContactParameters& p, const Touch& touch, double speed, History& history, LawProgram& user) {
-    const LawAnswer a = user.answer(p.own, {touch.overlap, speed, touch.reduced / 2, touch.mass}, history.own);
+    const LawAnswer a =
+        user.answer(p.own, {touch.overlap, speed, touch.reduced / 2, touch.mass}, history.own, touch.sides);
     const auto isSize = [](double x) { return x >= 0 && std::isfinite(x); };
     const bool sound = isSize(a.stiffness) && a.stiffness > 0 && a.stiffness <= mostStiffness(p) && isSize(a.damping) &&
                        isSize(a.pull);
@@ -75,7 +77,8 @@ Normal userNormal(const ContactParameters& p, const Touch& touch, double speed, 
              a.stiffness * p.kr, a.stiffness * p.kTo, a.damping * p.gammaT, a.damping * p.gammaR, a.damping * p.gammaTo,
              true},
             springsKept(before, a.stiffness),
-            a.energy};
+            a.energy,
+            a.flows};
 }
 
 Normal normalOf(const ContactParameters& p, const Touch& touch, double speed, History& history, LawProgram* user) {
@@ -93,7 +96,7 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
     const Vec3& n = touch.normal;
 
     const double normalVelocity = glm::dot(touch.velocity, n);
-    const auto [answer, kept, stored] = normalOf(p, touch, -touch.share * normalVelocity, history, user);
+    const auto [answer, kept, stored, flows] = normalOf(p, touch, -touch.share * normalVelocity, history, user);
     history.overlap = touch.overlap;
     history.sliding *= kept;
     history.rolling *= kept;
@@ -118,6 +121,7 @@ Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& 
                                         torsionVelocity(lever, n, touch.spin), dt, history.torsion, &twists);
 
     Response response{};
+    response.flows = flows;
     response.force = normal * n + tangential;
     const Vec3 rollingCouple = rollingTorque(lever, n, rolling), torsionCouple = lever * torsion * n;
     response.couple = rollingCouple + torsionCouple;

@@ -43,6 +43,7 @@ struct Touch {
     Vec3 velocity;     ///< of i relative to j at the contact point [m/s]
     Vec3 spin;         ///< omega_i - omega_j [rad/s]
     double share = 1;  ///< how much the overlap falls per way along the normal (geometry/features.h)
+    LawSides sides;    ///< what a user's law knows of them
 };
 
 /// Contact of two spheres; nothing unless their overlap is above -reach [m].
@@ -80,6 +81,7 @@ struct Response {
     Vec3 torqueJ;  ///< on j about its centre [N m]
     Vec3 couple;   ///< rolling and torsion part of torqueI [N m]
     Parts parts{};
+    LawProperties flows{};  ///< what i gains of each property, and j loses [unit/s]
 };
 
 /// The law of a contact of these two materials. `dt` [s] is the time by which the springs advance; `history` is

@@ -45,6 +45,7 @@ void Forces::evaluate(const RuledWorld& world, const Particles& particles, const
     loads_ = &loads;
     loads.force.assign(particles.size(), Vec3(0));
     loads.torque.assign(particles.size(), Vec3(0));
+    loads.flows.assign(particles.properties.size(), {});
     loads.bodies.assign(bodies_.size() + (world.wallLoads ? walls_ : 0), {});
     loads.deepest = {};
     loads.energy = {};
@@ -133,9 +134,9 @@ void Forces::pairs(std::size_t i) {
         const double reduced = reducedSize(particles_->radius[i], particles_->radius[j]);
         const MaterialPair pair{materialOf(i), materialOf(j)};
         const Body other = imageNear(i, j);
-        const std::optional<Touch> touch =
-            touchSphere(body(i), other, reachOf(world_->law.of(pair), reduced, continues));
+        std::optional<Touch> touch = touchSphere(body(i), other, reachOf(world_->law.of(pair), reduced, continues));
         if (!touch) continue;
+        if (!particles_->properties.empty()) touch->sides = {particles_->properties[i], particles_->properties[j]};
         const Known before = continues ? *known++ : Known{j, {}, {}};
         History history = before.history;
 
@@ -144,6 +145,8 @@ void Forces::pairs(std::size_t i) {
         loads_->force[j] -= response.force;
         loads_->torque[i] += response.torqueI;
         loads_->torque[j] += response.torqueJ;
+        flow(i, response.flows, 1);
+        flow(j, response.flows, -1);
         loads_->branches.push_back({static_cast<std::uint32_t>(i), j, true, particles_->position[i],
                                     particles_->position[i] - other.position, response.force});
         const Exerted now = exertedBy(pair, *touch, response, history);
@@ -154,12 +157,21 @@ void Forces::pairs(std::size_t i) {
     partThoseBefore(std::numeric_limits<std::uint32_t>::max());
 }
 
+/// Adds what flows to a particle by a contact.
+void Forces::flow(std::size_t i, const LawProperties& rate, double sign) {
+    if (loads_->flows.empty()) return;
+    for (std::size_t k = 0; k < rate.size(); ++k) loads_->flows[i][k] += sign * rate[k];
+}
+
 /// The caller books the force, because it knows that of the last step.
-Forces::Pushed Forces::wall(std::size_t i, int material, std::uint32_t other, const Touch& touch, History& history) {
+Forces::Pushed Forces::wall(std::size_t i, int material, std::uint32_t other, Touch touch, History& history) {
     const MaterialPair pair{materialOf(i), material};
+    if (!particles_->properties.empty())
+        touch.sides = {particles_->properties[i], world_->materials[std::size_t(material)].properties};
     const Response response = contactResponse(world_->law, pair, touch, springDt_, history, user());
     loads_->force[i] += response.force;
     loads_->torque[i] += response.torqueI;
+    flow(i, response.flows, 1);
     const Vec3 toWall = (particles_->radius[i] - touch.overlap) * touch.normal;
     loads_->branches.push_back(
         {static_cast<std::uint32_t>(i), other, false, particles_->position[i], toWall, response.force});

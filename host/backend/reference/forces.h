@@ -24,10 +24,11 @@ struct Deepest {
 
 /// Forces and torques of the contacts on the particles and the bodies at one instant.
 struct Loads {
-    std::vector<Vec3> force;       ///< without gravity [N]
-    std::vector<Vec3> torque;      ///< about the particle's centre [N m]
-    std::vector<BodyLoad> bodies;  ///< of all that tell loads (loadNames); `work` in this step
-    EnergyBook energy;             ///< energies that contacts book and store in this step; if the world asks for it
+    std::vector<Vec3> force;           ///< without gravity [N]
+    std::vector<Vec3> torque;          ///< about the particle's centre [N m]
+    std::vector<LawProperties> flows;  ///< of each particle's properties [unit/s]; empty: there are none
+    std::vector<BodyLoad> bodies;      ///< of all that tell loads (loadNames); `work` in this step
+    EnergyBook energy;                 ///< energies that contacts book and store in this step; if the world asks for it
     Deepest deepest;
     std::vector<Branch> branches;  ///< of every contact
 };
@@ -105,12 +106,13 @@ class Forces {
     void loadBody(std::uint32_t b, const Pushed& pushed);
     void loadWall(std::uint32_t which, const Pushed& pushed);
     void bookBody(std::size_t i, std::uint32_t b, const Exerted& before, const Exerted& now);
-    Pushed wall(std::size_t i, int material, std::uint32_t other, const Touch& touch, History& history);
+    Pushed wall(std::size_t i, int material, std::uint32_t other, Touch touch, History& history);
     Exerted exertedBy(MaterialPair pair, const Touch& touch, const Response& response, const History& history) const;
     void book(const Exerted& before, const Exerted& now, const Body& i, const Body& j);
     void partPair(std::size_t i, const Known& known);
     void partWall(std::size_t i, const Exerted& before);
     double reachOf(const ContactParameters& p, double reduced, bool continues);
+    void flow(std::size_t i, const LawProperties& rate, double sign);
     LawProgram* user() { return user_ ? &*user_ : nullptr; }
     Body body(std::size_t i) const;
     Body imageNear(std::size_t i, std::size_t j) const;

@@ -148,6 +148,9 @@ Record ReferenceBackend::snapshot() const {
     record.put("velocity", flat(particles_.velocity));
     record.put("spin", flat(particles_.spin));
     record.put("status", std::move(status));
+    std::vector<double> properties;
+    for (const LawProperties& of : particles_.properties) properties.insert(properties.end(), of.begin(), of.end());
+    if (!properties.empty()) record.put("properties", std::move(properties));
     if (world_.repeats()) {
         std::vector<Vec3> gone;
         for (const glm::ivec3& g : particles_.gone) gone.emplace_back(g);
@@ -175,6 +178,12 @@ void ReferenceBackend::restore(const Record& record) {
     vectors("spin", particles_.spin);
     const auto& status = record.get<std::uint32_t>("status", n);
     for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
+    if (!particles_.properties.empty()) {
+        const auto& values = record.get<double>("properties", kMostLawProperties * n);
+        for (std::size_t i = 0; i < n; ++i)
+            std::copy_n(values.begin() + std::ptrdiff_t(kMostLawProperties * i), kMostLawProperties,
+                        particles_.properties[i].begin());
+    }
     if (world_.repeats()) {
         std::vector<Vec3> gone(n);
         vectors("periods_gone", gone);
@@ -256,6 +265,9 @@ void ReferenceBackend::move(std::size_t i, double kick) {
     const double inertia = 0.4 * m * particles_.radius[i] * particles_.radius[i];
     particles_.velocity[i] += kick * (loads_.force[i] / m + world_.gravity);
     particles_.spin[i] += kick / inertia * loads_.torque[i];
+    if (!loads_.flows.empty())
+        for (std::size_t k = 0; k < kMostLawProperties; ++k)
+            particles_.properties[i][k] += world_.timeStep * loads_.flows[i][k];
     Vec3& x = particles_.position[i];
     x += world_.timeStep * particles_.velocity[i];
     for (int d = 0; d < 3; ++d) {

@@ -148,7 +148,7 @@ void Ensemble::make(Plan plan) {
     passes_->state.writeAll(half);
     passes_->state.writeAll(half, half.size() * sizeof(gpu::vec4));
     passes_->reset();
-    for (std::uint32_t m = 0; m < members_.size(); ++m) writeSpeedLows(*passes_, m, 0, members_[m].loaded);
+    for (std::uint32_t m = 0; m < members_.size(); ++m) writeLows(*passes_, m, 0, members_[m].loaded);
     std::vector<std::uint32_t> all(members_.size());
     std::iota(all.begin(), all.end(), 0U);
     setLive(all);
@@ -196,6 +196,10 @@ void Ensemble::addParticles(std::uint32_t member, std::size_t first, const std::
     for (std::size_t k = 0; k < positions.size(); ++k)
         added.add(positions[k], m.loaded.radius.at(first + k),
                   velocityOfRest(m.world.timeStep, m.world.gravity, m.step), Vec3(0), m.loaded.material[first + k]);
+    if (!m.loaded.properties.empty()) {
+        const auto own = m.loaded.properties.begin() + std::ptrdiff_t(first);
+        added.properties.assign(own, own + std::ptrdiff_t(positions.size()));
+    }
     writeParticles(*passes_, member, first, added, m.half());
 }
 

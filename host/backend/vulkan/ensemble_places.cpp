@@ -34,7 +34,7 @@ bool Ensemble::replace(std::uint32_t member, const Canister& canister) {
     // Both halves, because a restored state goes on in that of its number of steps, and needs the padding there.
     for (const std::uint32_t half : {0U, 1U}) writeState(*passes_, member, 0, state, half);
     passes_->reset(member);
-    writeSpeedLows(*passes_, member, 0, members_[member].loaded);
+    writeLows(*passes_, member, 0, members_[member].loaded);
     return true;
 }
 

@@ -149,8 +149,12 @@ Particles Ensemble::particles(std::uint32_t member) const {
     }
     const Particles& loaded = members_[member].loaded;
     const std::uint64_t lows = passes_->at.speedLowIndex(std::uint64_t(member) * t.share, 0);
-    return unpackState(share, passes_->anchors.readAll<gpu::vec4>(2 * loaded.size(), lows * sizeof(gpu::vec4)), t.share,
-                       loaded, members_[member].world.period);
+    Particles now = unpackState(share, passes_->anchors.readAll<gpu::vec4>(2 * loaded.size(), lows * sizeof(gpu::vec4)),
+                                t.share, loaded, members_[member].world.period);
+    if (!t.properties()) return now;
+    const std::uint64_t own = passes_->at.propertyIndex(std::uint64_t(member) * t.share, 0);
+    unpackProperties(passes_->forces.readAll<gpu::vec4>(2 * loaded.size(), own * sizeof(gpu::vec4)), now);
+    return now;
 }
 
 std::vector<Contact> Ensemble::contacts(std::uint32_t member) const {

@@ -16,7 +16,8 @@ namespace {
 
 using gpu::vec4;
 
-constexpr std::size_t kPoints = 96, kPointVectors = 2, kLoadingVectors = 1 + kMostLawParameters / 4, kMemoryVectors = 2;
+constexpr std::size_t kPoints = 96, kPointVectors = 3, kLoadingVectors = 3 + kMostLawParameters / 4, kMemoryVectors = 2;
+static_assert(kMostLawProperties == 4);
 
 std::vector<vec4> packed(const std::vector<LawLoading>& loadings) {
     std::vector<vec4> vectors;
@@ -24,6 +25,8 @@ std::vector<vec4> packed(const std::vector<LawLoading>& loadings) {
         vectors.emplace_back(float(l.radius), float(l.mass), float(l.deepest), float(l.speed));
         for (std::size_t k = 0; k < l.own.size(); k += 4)
             vectors.emplace_back(float(l.own[k]), float(l.own[k + 1]), float(l.own[k + 2]), float(l.own[k + 3]));
+        for (const LawProperties& side : {l.sides.i, l.sides.j})
+            vectors.emplace_back(float(side[0]), float(side[1]), float(side[2]), float(side[3]));
     }
     return vectors;
 }
@@ -72,8 +75,15 @@ std::vector<std::vector<LawPoint>> tryLaw(const vk::DeviceChoice& device, const 
     const vec4* v = found->second.data();
     for (std::vector<LawPoint>& loading : points)
         for (std::size_t k = 0; k < kPoints; ++k, v += kPointVectors)
-            loading.push_back({double(v[0].x), double(v[0].y), double(v[0].z), double(v[0].w), double(v[1].x),
-                               double(v[1].y), double(v[1].z), double(v[1].w)});
+            loading.push_back({double(v[0].x),
+                               double(v[0].y),
+                               double(v[0].z),
+                               double(v[0].w),
+                               double(v[1].x),
+                               double(v[1].y),
+                               double(v[1].z),
+                               double(v[1].w),
+                               {double(v[2].x), double(v[2].y), double(v[2].z), double(v[2].w)}});
     return points;
 }
 

@@ -24,6 +24,7 @@ static_assert(gpu::kFirstPowder == kFirstPowder && gpu::kWallMaterial == kWallMa
               gpu::kCoilMaterial == kCoilMaterial && gpu::kMostMaterials == kMostMaterials);
 static_assert(gpu::pairIndex(2, 5) == PairTable::index({2, 5}) && gpu::pairIndex(5, 2) == gpu::pairIndex(2, 5));
 static_assert(gpu::kLawUser == uint32_t(NormalLaw::User));
+static_assert(gpu::kOwnProperties == kMostLawProperties && kMostLawProperties == 4);
 static_assert(gpu::kOwnParameters == kMostLawParameters && gpu::kOwnMemories == kMostLawMemories);
 static_assert(gpu::kLeverFull == uint32_t(RollingLever::Full) && gpu::kLeverHalf == uint32_t(RollingLever::Half));
 
@@ -124,6 +125,9 @@ gpu::Member packMember(const World& world, const ContactLaw& law, const Particle
     packGravity(world, m);
     for (std::size_t k = 0; k < world.materials.size(); ++k)
         m.densities[k / 4][int(k % 4)] = float(world.materials[k].density);
+    for (std::size_t k = 0; k < world.materials.size(); ++k)
+        for (std::size_t n = 0; n < kMostLawProperties; ++n)
+            m.properties[k][int(n)] = float(world.materials[k].properties[n]);
     m.domainLow = vec4(glm::vec3(world.domain.low), finite(world.throatZ));
     m.domainHigh = vec4(glm::vec3(world.domain.high), finite(world.outletZ));
     packOutlets(world, m);
@@ -169,6 +173,26 @@ std::vector<gpu::vec4> packSpeedLows(const Particles& p) {
         lows.emplace_back(Split3(p.spin[i]).low, 0.0f);
     }
     return lows;
+}
+
+std::vector<gpu::vec4> packProperties(const Particles& particles) {
+    std::vector<gpu::vec4> packed;
+    for (const LawProperties& of : particles.properties) {
+        vec4 high(0.0f), low(0.0f);
+        for (std::size_t k = 0; k < of.size(); ++k) {
+            const Split split(of[k]);
+            high[int(k)] = split.high;
+            low[int(k)] = split.low;
+        }
+        packed.insert(packed.end(), {high, low});
+    }
+    return packed;
+}
+
+void unpackProperties(const std::vector<gpu::vec4>& packed, Particles& particles) {
+    for (std::size_t i = 0; i < particles.properties.size(); ++i)
+        for (std::size_t k = 0; k < kMostLawProperties; ++k)
+            particles.properties[i][k] = double(packed[2 * i][int(k)]) + double(packed[2 * i + 1][int(k)]);
 }
 
 Particles unpackState(const std::vector<gpu::vec4>& half, const std::vector<gpu::vec4>& speedLows, std::size_t slots,

@@ -32,6 +32,10 @@ void packState(const Particles& particles, std::size_t share, std::size_t first,
 /// The low parts of the speeds beside it: of each particle two vectors (speedLowIndex in shaders/shared/tables.h). No
 /// particle has gone through a period.
 std::vector<gpu::vec4> packSpeedLows(const Particles& particles);
+
+/// The properties that a user's law gives each particle: two vectors of each (propertyIndex), high and low parts.
+std::vector<gpu::vec4> packProperties(const Particles& particles);
+void unpackProperties(const std::vector<gpu::vec4>& packed, Particles& particles);
 /// Reads the particles from a half that holds only this member, and the low parts of their speeds. `period`:
 /// World::period.
 Particles unpackState(const std::vector<gpu::vec4>& half, const std::vector<gpu::vec4>& speedLows, std::size_t slots,

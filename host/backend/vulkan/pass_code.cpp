@@ -84,6 +84,7 @@ std::span<const std::uint32_t> compiledNow(const std::string& file, const UserLa
     static std::mutex mutex;
     static std::map<std::string, std::vector<std::uint32_t>> made;
     std::string defines = law != nullptr ? "#define USER_LAW\n" : "";
+    if (law != nullptr && !law->properties.empty()) defines += "#define OWN_PROPERTIES\n";
     for (const std::string& macro : macros) defines += fmt::format("#define {}\n", macro);
     const std::lock_guard lock(mutex);
     const auto [place, added] = made.try_emplace(file + "\n" + defines + (law != nullptr ? law->shader : ""));

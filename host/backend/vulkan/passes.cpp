@@ -52,6 +52,7 @@ struct StepPass {
     bool forBodies = false;    ///< has nothing to do without bodies
     bool forFree = false;      ///< has nothing to do without bodies that move freely
     bool knowsLaw = false;     ///< knows the law, or what contacts remember
+    bool moves = false;        ///< adds up what a law lets flow
 };
 
 /// A stride: `decide`, the passes that make new lists, then steps of the other passes.
@@ -68,7 +69,7 @@ constexpr std::array kPasses{
              true},
     StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true, false, true},
     StepPass{"free_bodies", spirv::free_bodies, Extent::Bodies, 0, true, true, true},
-    StepPass{"move", spirv::move, Extent::Particles},
+    StepPass{"move", spirv::move, Extent::Particles, 0, false, false, false, false, true},
 };
 constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1, kFree = kMove - 1;
 
@@ -161,7 +162,7 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
         if (pass.forFree && (s.shapeKinds & gpu::kFreeBodies) == 0) continue;
         made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
-                     codeOf(pass.name, pass.variants, pass.knowsLaw), constants(s));
+                     codeOf(pass.name, pass.variants, pass.knowsLaw || (pass.moves && s.properties())), constants(s));
     }
 }
 

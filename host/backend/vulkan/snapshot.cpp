@@ -14,6 +14,7 @@ using gpu::uvec4;
 using gpu::vec4;
 
 constexpr const char* kSpeedLow = "speed_low";
+constexpr const char* kProperties = "properties";
 
 /// Reads `count` vectors, from `first` on, of each of `rows` rows that are `stride` vectors long.
 std::vector<float> packed(const vk::Buffer& from, std::size_t rows, std::size_t stride, std::size_t first,
@@ -247,9 +248,12 @@ std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t mem
     return found;
 }
 
-void writeSpeedLows(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles) {
+void writeLows(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles) {
     const std::uint64_t at = passes.at.speedLowIndex(std::uint64_t(member) * passes.sizes.share + first, 0);
     passes.anchors.writeAll(packSpeedLows(particles), at * sizeof(vec4));
+    if (!passes.sizes.properties()) return;
+    const std::uint64_t own = passes.at.propertyIndex(std::uint64_t(member) * passes.sizes.share + first, 0);
+    passes.forces.writeAll(packProperties(particles), own * sizeof(vec4));
 }
 
 void writeState(Passes& passes, std::uint32_t member, std::size_t first, const std::vector<gpu::vec4>& state,
@@ -269,7 +273,7 @@ void writeParticles(Passes& passes, std::uint32_t member, std::size_t first, con
     std::vector<vec4> state(particles.size() * gpu::kFields);
     packState(particles, particles.size(), 0, state);
     writeState(passes, member, first, state, source);
-    writeSpeedLows(passes, member, first, particles);
+    writeLows(passes, member, first, particles);
     gpu::Control control = passes.controlOf(member);
     control.wanted.z = control.wanted.w = 1U;  // new rows and lists, which know them
     passes.setControl(member, control);
@@ -282,6 +286,8 @@ void saveState(const Passes& passes, std::uint32_t member, std::size_t particles
     record.put("state",
                packed(passes.state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles));
     record.put(kSpeedLow, packed(passes.anchors, 1, 0, passes.at.speedLowIndex(first, 0), 2 * particles));
+    if (passes.sizes.properties())
+        record.put(kProperties, packed(passes.forces, 1, 0, passes.at.propertyIndex(first, 0), 2 * particles));
     saveContacts(passes, member, record);
     saveBodies(passes, member, record);
     if (passes.sizes.energyBook)
@@ -297,6 +303,7 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
     const auto& state = record.get<float>("state", 4 * particles * gpu::kFields);
     static const std::vector<float> none;
     const auto& lows = record.get<float>(kSpeedLow, 8 * particles);
+    const auto& properties = passes.sizes.properties() ? record.get<float>(kProperties, 8 * particles) : none;
     const auto& book = books > 0 ? record.get<float>("energy_book", 4 * particles * books) : none;
     const auto rebuilds = record.one<std::uint32_t>("rebuilds");
     gpu::Control control = passes.controlOf(member);
@@ -304,6 +311,8 @@ void restoreState(Passes& passes, std::uint32_t member, std::size_t particles, s
     const std::size_t couples = gpu::kFields / 2, source = steps % 2;
     unpack(state, couples, 2 * stride, source * couples * 2 * stride + 2 * first, 2 * particles, passes.state);
     unpack(lows, 1, 0, passes.at.speedLowIndex(first, 0), 2 * particles, passes.anchors);
+    if (passes.sizes.properties())
+        unpack(properties, 1, 0, passes.at.propertyIndex(first, 0), 2 * particles, passes.forces);
     unpack(book, books, stride, first, particles, passes.books);
     control.steps.x = steps;
     control.list = uvec4(0U, rebuilds, 0U, 0U);

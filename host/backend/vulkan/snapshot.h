@@ -37,8 +37,8 @@ std::vector<PlaceContact> touchingPlaces(const Passes& passes, std::uint32_t mem
 void writeState(Passes& passes, std::uint32_t member, std::size_t first, const std::vector<gpu::vec4>& state,
                 std::uint32_t source);
 
-/// Writes the low parts of the speeds of the particles from `first` on. The device must be idle.
-void writeSpeedLows(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles);
+/// Writes the low parts of the speeds of the particles from `first` on, and their properties. The device must be idle.
+void writeLows(Passes& passes, std::uint32_t member, std::size_t first, const Particles& particles);
 
 /// Puts active particles into the places of those from `first` on in half `source`, and asks for new rows and contact
 /// lists. The device must be idle.

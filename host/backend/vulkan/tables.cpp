@@ -102,7 +102,8 @@ TableCounts::TableCounts(const TableSizes& s)
       bodies(s.bodies),
       bodied(s.bodies > 0 ? 1 : 0),
       loaded(s.loaded()),
-      bodyHistory(s.bodyHistory()) {}
+      bodyHistory(s.bodyHistory()),
+      propertied(s.properties() ? 1 : 0) {}
 
 namespace {
 

@@ -68,6 +68,8 @@ struct TableSizes {
     std::uint32_t historyParts() const {
         return ownPart() + (userLaw ? 2U : (laws & gpu::kOverlapKeepers) != 0 ? 1U : 0U);
     }
+    /// Whether a user's law gives particles properties.
+    bool properties() const { return userLaw && !userLaw->properties.empty(); }
     /// Where in it a user's law has its memory, or another law the overlap of the last step (kOwnPart).
     std::uint32_t ownPart() const { return energyBook ? 5 : 2; }
     /// The same of a place on a body, and of a body slot (kPlaceParts, kBodyHistory).
@@ -94,7 +96,7 @@ struct TableShape {
 /// 64 bits, because the tables are counted before it is known whether 32 bits are enough to number their elements.
 struct TableCounts {
     std::uint64_t canisters, particles, groups, cellHeads, rowEntries, linkEntries, springSlots, slots, historyParts,
-        energyBook, bodySlots, bodies, bodied, loaded, bodyHistory;
+        energyBook, bodySlots, bodies, bodied, loaded, bodyHistory, propertied;
 
     explicit TableCounts(const TableSizes& sizes);
     std::array<TableShape, gpu::kTables> shapes() const;  ///< in the order of the bindings
