@@ -23,7 +23,8 @@ NormalAnswer normalAnswer(ContactParams p, Meeting m, float speed, inout History
     float stiffness = Userstiffness(c), damping = userDamping(c), pull = userPull(c);
     userStored = userEnergy(c);
     userFlow = userFlows(c);
-    bool sound = stiffness > 0.0 && stiffness <= p.normal.x && answersSize(damping) && answersSize(pull);
+    bool sound = stiffness > 0.0 && stiffness <= p.normal.x && answersSize(damping) && answersSize(pull) &&
+                 all(lessThanEqual(abs(userFlow), vec4(3.4e38)));
 #ifdef ENERGY_BOOK
     sound = sound && answersSize(abs(userStored));
 #endif

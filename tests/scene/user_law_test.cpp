@@ -267,15 +267,25 @@ TEST_CASE("the reference keeps the memory of a user's law in its state, closes i
     CHECK_THROWS_WITH(other->restore(record), Catch::Contains("test.glsl"));
 }
 
-TEST_CASE("the reference ends at an answer that is no number, and names the law") {
+TEST_CASE("a run ends at an answer that is no number, and names the law") {
+    const std::string force = "float force(Contact c) { return ";
+    const std::string spring = "k * c.overlap; }\nfloat stiffness(Contact c) { return k; }\n";
+    const std::string text = GENERATE_COPY(
+        force + "c.overlap > 1e-6 ? log(-1.0) : " + spring,
+        force + spring +
+            "particle float heat;\nfloat flow_heat(Contact c) { return c.overlap > 1e-6 ? exp(1e3) : 0.0; }\n");
     RuledWorld w = ludingTwins().users;
-    w.law.user = lawOf(
-        "parameter float k1, k, kc, depth, gamma;\n"
-        "float force(Contact c) { return c.overlap > 1e-6 ? log(-1.0) : k * c.overlap; }\n"
-        "float stiffness(Contact c) { return k; }\n");
-    auto reference = makeReferenceBackend();
-    reference->load(w, threeSpheres());
-    CHECK_THROWS_WITH(reference->advance(400, 0), Catch::Contains("no longer finite") && Catch::Contains("test.glsl"));
+    w.law.user = lawOf("parameter float k1, k, kc, depth, gamma;\n" + text);
+    w.properties = w.law.user->properties;
+    Particles spheres = threeSpheres();
+    if (!w.properties.empty()) spheres.properties.resize(spheres.size());
+    std::vector<std::unique_ptr<Backend>> runs;
+    runs.push_back(makeReferenceBackend());
+    runs.push_back(gpu());
+    for (const auto& run : runs) {
+        run->load(w, spheres);
+        CHECK_THROWS_WITH(run->advance(400, 0), Catch::Contains("test.glsl"));
+    }
 }
 
 namespace {

@@ -69,7 +69,7 @@ Normal userNormal(const ContactParameters& p, const Touch& touch, double speed, 
         user.answer(p.own, {touch.overlap, speed, touch.reduced / 2, touch.mass}, history.own, touch.sides);
     const auto isSize = [](double x) { return x >= 0 && std::isfinite(x); };
     const bool sound = isSize(a.stiffness) && a.stiffness > 0 && a.stiffness <= mostStiffness(p) && isSize(a.damping) &&
-                       isSize(a.pull);
+                       isSize(a.pull) && std::ranges::all_of(a.flows, [](double flow) { return std::isfinite(flow); });
     const double before = history.stiffness;
     history.stiffness = a.stiffness;
     history.maxOverlap = std::max(touch.overlap, 1e-9 * touch.reduced);  // above 0: the contact goes on
