@@ -63,12 +63,12 @@ bool Child::tell(const std::string& line) const {
 }
 
 Ended Child::read(const std::function<void(const std::string&)>& line,
-                  const std::optional<std::chrono::milliseconds>& limit) {
+                  const std::optional<std::chrono::milliseconds>& limit, const std::atomic<bool>* stop) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     Ended ended;
     std::string text;
-    bool out = true, error = true;
+    bool out = true, error = true, stopped = false;
     while (out || error) {
         std::array<pollfd, 2> ends{{{out ? out_ : -1, POLLIN, 0}, {error ? error_ : -1, POLLIN, 0}}};
         (void)poll(ends.data(), ends.size(), kMoment);
@@ -76,6 +76,7 @@ Ended Child::read(const std::function<void(const std::string&)>& line,
             ended.late = true;
             kill(process_, SIGKILL);
         }
+        if (stop != nullptr && *stop && !std::exchange(stopped, true)) interrupt();
         if (error && ends[1].revents != 0) error = more(error_, ended.error);
         if (ended.error.size() > kRemembered) ended.error.erase(0, ended.error.size() - kRemembered);
         if (!out || ends[0].revents == 0) continue;

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -29,9 +30,9 @@ class Child {
     Child& operator=(const Child&) = delete;
 
     /// Calls `line` for each line of its standard output until it has ended. Call once. With a limit it is killed after
-    /// so long.
+    /// so long, and when `stop` comes true it is interrupted.
     Ended read(const std::function<void(const std::string&)>& line,
-               const std::optional<std::chrono::milliseconds>& limit = {});
+               const std::optional<std::chrono::milliseconds>& limit = {}, const std::atomic<bool>* stop = nullptr);
     /// As Ctrl-C does. May be called from another thread.
     void interrupt() const;
     /// Gives it a line on its standard input. Returns false if it takes none now. May be called from another thread.

@@ -28,7 +28,7 @@ void putJson(httplib::Response& response, const Json& json) {
     answerWith(response, json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
 }
 
-void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& stopped) {
+void route(httplib::Server& server, Workbench& bench) {
     using Request = httplib::Request;
     const auto get = [&](const char* path, const std::function<Json(const Request&)>& make) {
         server.Get(path, [make](const Request& request, httplib::Response& response) {
@@ -69,7 +69,7 @@ void route(httplib::Server& server, Workbench& bench, const std::atomic<bool>& s
             throw Refused(415, "the request is no file");
         putJson(response, bench.mesh(request.get_param_value("name"), request.body));
     });
-    server.Get("/api/events", [&](const Request& r, httplib::Response& s) { bench.events(r, s, stopped); });
+    server.Get("/api/events", [&](const Request& r, httplib::Response& s) { bench.events(r, s); });
     server.Get(kFile, [&](const Request& r, httplib::Response& s) {
         bench.file(r.get_param_value("run"), r.get_param_value("name"), s);
     });
@@ -123,7 +123,7 @@ void guard(httplib::Server& server, const Gate& gate) {
 
 void serve(const ServerOptions& options, const std::function<void(const std::string& address)>& listening,
            const std::atomic<bool>& stop) {
-    Workbench workbench(options.folder, options.program, options.first);
+    Workbench workbench(options.folder, options.program, options.first, stop);
     httplib::Server server;
     const int port = options.port == 0                                ? server.bind_to_any_port("127.0.0.1")
                      : server.bind_to_port("127.0.0.1", options.port) ? options.port
@@ -133,7 +133,7 @@ void serve(const ServerOptions& options, const std::function<void(const std::str
                                          : fmt::format("studio: port {} is taken; leave --port out", options.port));
     const Gate gate(port);
     guard(server, gate);
-    route(server, workbench, stop);
+    route(server, workbench);
     const std::jthread watcher([&](const std::stop_token& over) {
         // A server can be stopped once it listens, not before.
         while (!over.stop_requested() && !(stop && server.is_running())) std::this_thread::sleep_for(milliseconds(100));

@@ -61,7 +61,7 @@ void Workbench::requireAllowed(const fs::path& file) const {
 Workbench::Said Workbench::said(const std::vector<std::string>& arguments, std::chrono::milliseconds limit) const {
     Said all;
     Child child(program_, arguments, workspace_.folder());
-    all.ended = child.read([&](const std::string& line) { all.text += line + "\n"; }, limit);
+    all.ended = child.read([&](const std::string& line) { all.text += line + "\n"; }, limit, &stop_);
     return all;
 }
 

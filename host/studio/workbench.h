@@ -19,11 +19,13 @@ namespace vkdose::studio {
 
 class Workbench {
   public:
-    /// `first`: a case that a new one begins as.
-    Workbench(const std::filesystem::path& folder, std::filesystem::path program, std::filesystem::path first)
+    /// `first`: a case that a new one begins as. When `stop` comes true, what runs for an answer is interrupted.
+    Workbench(const std::filesystem::path& folder, std::filesystem::path program, std::filesystem::path first,
+              const std::atomic<bool>& stop)
         : workspace_(folder),
           program_(std::move(program)),
           first_(std::move(first)),
+          stop_(stop),
           runs_(program_, workspace_.folder()) {}
 
     // workbench_cases.cpp
@@ -53,7 +55,7 @@ class Workbench {
     Json history(const std::string& run) const;
     Json members(const std::string& study) const;
     /// Server-sent events: each event of the run with its number, so that a page that was cut off goes on where it was.
-    void events(const httplib::Request& request, httplib::Response& response, const std::atomic<bool>& stop);
+    void events(const httplib::Request& request, httplib::Response& response);
 
     // workbench_exports.cpp
     Json report(const std::string& run) const;
@@ -85,6 +87,7 @@ class Workbench {
 
     Workspace workspace_;
     std::filesystem::path program_, first_;
+    const std::atomic<bool>& stop_;
     AllowedLaws laws_;
     Runs runs_;
     std::atomic<std::size_t> listeners_{0};

@@ -122,7 +122,7 @@ Json Workbench::members(const std::string& study) const {
     return {{"columns", table.names()}, {"keys", keysIn(folder / "members.csv")}, {"rows", rows}, {"ended", ended}};
 }
 
-void Workbench::events(const httplib::Request& request, httplib::Response& response, const std::atomic<bool>& stop) {
+void Workbench::events(const httplib::Request& request, httplib::Response& response) {
     const std::string run = request.get_param_value("run");
     (void)fileOf(run);
     std::size_t from = 0;
@@ -135,13 +135,13 @@ void Workbench::events(const httplib::Request& request, httplib::Response& respo
     response.set_header("Cache-Control", "no-store");
     response.set_chunked_content_provider(
         "text/event-stream",
-        [this, run, from, &stop](std::size_t, httplib::DataSink& sink) mutable {
+        [this, run, from](std::size_t, httplib::DataSink& sink) mutable {
             const Runs::State state = runs_.eventsOf(run, from, kHeartbeat);
             std::string text;
             for (std::size_t i = 0; i < state.events.size(); ++i)
                 text += fmt::format("id: {}\ndata: {}\n\n", from + i, eventOf(state.events[i]));
             from = state.next;
-            const bool over = !state.running || stop;
+            const bool over = !state.running || stop_;
             if (over)
                 text += fmt::format(
                     "event: over\ndata: {}\n\n",

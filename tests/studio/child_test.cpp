@@ -17,3 +17,11 @@ TEST_CASE("a process that takes longer than it may is ended, and known by it") {
     CHECK(well.code == 0);
     CHECK(said == "a b");
 }
+
+TEST_CASE("a process that runs for an answer is interrupted when the workbench is to stop") {
+    Child slow("/bin/sleep", {"600"}, "/");
+    const std::atomic<bool> stop = true;
+    const Ended ended = slow.read([](const std::string&) {}, std::chrono::minutes(10), &stop);
+    CHECK_FALSE(ended.late);
+    CHECK(ended.code == 128 + 2);
+}
