@@ -176,6 +176,14 @@ std::vector<Mutant> mutants() {
          1,
          {"user-law/memory", "user-law/reach"},
          "hertz/"},
+        {"what flows by a user's law 2 % up",
+         [](RuledWorld& w) {
+             if (!w.properties.empty())
+                 for (ContactParameters& p : w.law.pairs) p.own[2] *= 1.02;
+         },
+         1,
+         {"user-law/flow"},
+         "user-law/reach"},
         {"sliding springs that grow",
          asItIs,
          1,
