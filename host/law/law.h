@@ -58,7 +58,7 @@ class Law {
   public:
     virtual ~Law() = default;
 
-    // --- in a case ---------------------------------------------------------------------------------------------------
+    // --- in a case ---
 
     virtual NormalLaw kind() const = 0;
     /// Its word in `contact.law`, and what the manual says of it.
@@ -74,8 +74,7 @@ class Law {
     /// moduli need no change. Source: Thakur, Ooi & Ahmadian, Powder Technology 293 (2016) 130.
     virtual void scaleStress(ContactParameters& /*p*/, double /*s*/) const {}
 
-    // --- before a run: closed forms by which time steps, overlaps and impacts are judged
-    // --------------------------------
+    // --- before a run: closed forms by which time steps, overlaps and impacts are judged ---
 
     /// The linear springs and dashpots that the contact acts like: k1 on loading, k2Max the steepest on the way back.
     virtual ContactParameters linearised(const ContactParameters& p, double mass, double reduced,
@@ -102,8 +101,7 @@ class Law {
     virtual double overlapOfStrongestPull(const ContactParameters& /*p*/, double /*reduced*/) const;
     virtual LawLanes lanes(const ContactParameters& p) const = 0;
 
-    // --- in a step of the reference
-    // ------------------------------------------------------------------------------------
+    // --- in a step of the reference ---
 
     /// `overlap` is positive, or above minus the reach where the contact goes on. `memory` is the contact's history of
     /// one number [m], above 0 while there is a contact.

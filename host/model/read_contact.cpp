@@ -33,6 +33,14 @@ void readPropertiesAt(const LawTables& in, const PairSection& p, const UserLaw& 
     Material& of = materials[std::size_t(b)];
     if (of.powder ? a != b : a != kFirstPowder) {
         p.section->know("properties");
+        const Node* stated = p.section->node("properties");
+        if (stated == nullptr) return;
+        const auto refuse = [&](const std::string& path) {
+            in.reader.fault(path, "is of one material, not of this pair",
+                            "give it in the table of the powder with itself, or of the first powder with the material");
+        };
+        refuse(p.section->path("properties"));
+        for (const Node& child : stated->children) refuse(p.section->path("properties." + child.key));
         return;
     }
     const LawProperties none{};

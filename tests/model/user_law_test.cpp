@@ -222,4 +222,12 @@ TEST_CASE("properties come from the case's tables and from a list, and walls hav
     const Case again = loadResolvedCase(resolved, "case.toml");
     setLawTrial({});
     CHECK(insertParticles(again).particles.properties == p.properties);
+    // Of two powders, and in the table of a pair that is no material's.
+    folder.write("two.csv", "x,y,z,r,powder\n0,0,0,1e-3,powder\n0.02,0,0,1e-3,sugar\n");
+    const std::string sugar = "powder=[{name=\"sugar\", density=1500.0}]";
+    CHECK(insertParticles(load({sugar})).particles.properties == std::vector<LawProperties>{{20, 1}, {20, 1}});
+    CHECK(insertParticles(load({sugar, "contact.sugar-sugar.properties.heat=60"})).particles.properties ==
+          std::vector<LawProperties>{{20, 1}, {60, 1}});
+    CHECK_THROWS_WITH(load({sugar, "contact.sugar-wall.properties.heat=60"}),
+                      Catch::Contains("contact.sugar-wall.properties: is of one material, not of this pair"));
 }
