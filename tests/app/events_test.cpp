@@ -119,7 +119,7 @@ TEST_CASE("a run obeys lines on its standard input, tells what it did, and refus
     const std::vector<Json> orders = eventsIn(out, "order"), refused = eventsIn(out, "refused");
     REQUIRE(orders.size() == 2);
     CHECK(orders[0]["order"] == "speed");
-    CHECK(orders[0]["speed_rpm"].get<double>() == Catch::Detail::Approx(150));
+    CHECK(orders[0]["speed_rpm"].get<double>() == Approx(150));
     CHECK(orders[1]["order"] == "stop");
     CHECK(orders[1]["time_s"] > orders[0]["time_s"]);
     std::vector<std::string> lines;

@@ -38,8 +38,8 @@ TEST_CASE("the planned motion is that of the run's first dose") {
     (void)play(c, backend, notes);
     const std::vector<Frame> planned = plannedMotion(c);
     REQUIRE(planned.size() == 101);
-    CHECK(planned.front().time == Catch::Detail::Approx(0.15));
-    CHECK(planned.back().time == Catch::Detail::Approx(0.55));
+    CHECK(planned.front().time == Approx(0.15));
+    CHECK(planned.back().time == Approx(0.55));
     const double rate = c.schedule.coilSpeed, between = (0.55 - 0.15) / 100;
     std::size_t compared = 0;
     for (const Frame& run : notes.frames) {
@@ -52,7 +52,7 @@ TEST_CASE("the planned motion is that of the run's first dose") {
         ++compared;
     }
     CHECK(compared > 50);
-    CHECK(std::abs(planned.back().coilAngle) == Catch::Detail::Approx(rate * (0.3 - ramp)));
+    CHECK(std::abs(planned.back().coilAngle) == Approx(rate * (0.3 - ramp)));
     CHECK(planned.back().phase == Phase::Rest);
 }
 
