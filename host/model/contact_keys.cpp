@@ -117,26 +117,20 @@ std::span<const KeyTable> contactKeys() {
          "`[contact]` holds the parameters between particles. `[contact.wall]` replaces single ones for the walls,\n"
          "`[contact.coil]` for the coil. The coil takes what it does not state from the wall, and the wall from "
          "`[contact]`. What is given in place of `k`, `kc_over_k` or `damping` holds for two spheres of the mean "
-         "radius; "
-         "at\n"
-         "a wall and at the coil for one such sphere. It is inherited as it is given: with one `restitution` each "
-         "class "
-         "gets\n"
-         "the damping that its own mass needs. `[contact.A-B]` is for a "
+         "radius; at\na wall and at the coil for one such sphere. It is inherited as it is given: with one "
+         "`restitution` each class gets\nthe damping that its own mass needs. `[contact.A-B]` is for a "
          "[pair of materials](#several-powders-and-materials), under their names in any order."},
         {"contact.A-B", kPairAlone,
          "A pair of materials, `[contact.cocoa-steel]`, takes this too under the law `luding`:"},
         {"contact", aloneKeys(), "These hold for all contacts."},
         {"contact.parameters contact.wall.parameters contact.coil.parameters contact.A-B.parameters", kLawParameters,
          "The parameters of [a law of your own](laws/README.md), under the names that its file declares. `[contact]` "
-         "needs "
-         "all of\nthem; the wall replaces single ones, and the coil takes from the wall what it does not state."},
+         "needs all of\nthem; the wall replaces single ones, and the coil takes from the wall what it does not "
+         "state."},
         {"contact.properties contact.wall.properties contact.coil.properties contact.A-B.properties", kLawProperties,
          "The properties that [a law of your own](laws/README.md#numbers-of-each-particle) gives each particle, under "
-         "the "
-         "names that its file declares: in `[contact]` those of the first powder. Walls have 0 unless they state them, "
-         "the "
-         "coil and further materials have those of the wall, further powders those of the first one. "
+         "the names that its file declares: in `[contact]` those of the first powder. Walls have 0 unless they state "
+         "them, the coil and further materials have those of the wall, further powders those of the first one. "
          "A pair of a powder with itself gives that powder's."},
     };
     return kTables;

@@ -9,6 +9,7 @@
 #include "host/backend/reference/forces.h"
 #include "host/backend/reference/free_motion.h"
 #include "host/backend/reference/neighbours.h"
+#include "host/backend/reference/properties.h"
 #include "host/core/error.h"
 #include "host/law/law_checks.h"
 #include "host/law/user_law_state.h"
@@ -148,9 +149,7 @@ Record ReferenceBackend::snapshot() const {
     record.put("velocity", flat(particles_.velocity));
     record.put("spin", flat(particles_.spin));
     record.put("status", std::move(status));
-    std::vector<double> properties;
-    for (const LawProperties& of : particles_.properties) properties.insert(properties.end(), of.begin(), of.end());
-    if (!properties.empty()) record.put("properties", std::move(properties));
+    reference::saveProperties(particles_, record);
     if (world_.repeats()) {
         std::vector<Vec3> gone;
         for (const glm::ivec3& g : particles_.gone) gone.emplace_back(g);
@@ -178,12 +177,7 @@ void ReferenceBackend::restore(const Record& record) {
     vectors("spin", particles_.spin);
     const auto& status = record.get<std::uint32_t>("status", n);
     for (std::size_t i = 0; i < n; ++i) particles_.status[i] = static_cast<Status>(status[i]);
-    if (!particles_.properties.empty()) {
-        const auto& values = record.get<double>("properties", kMostLawProperties * n);
-        for (std::size_t i = 0; i < n; ++i)
-            std::copy_n(values.begin() + std::ptrdiff_t(kMostLawProperties * i), kMostLawProperties,
-                        particles_.properties[i].begin());
-    }
+    reference::restoreProperties(record, particles_);
     if (world_.repeats()) {
         std::vector<Vec3> gone(n);
         vectors("periods_gone", gone);
