@@ -155,6 +155,21 @@ CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q) {
     return nearest;
 }
 
+std::vector<Feature> Coil::places(const Vec3& centre, double reach) const {
+    std::vector<Feature> found;
+    for (const CoilTouch& touch : touches(*this, 0, centre, reach))
+        found.push_back({touch, std::uint32_t(std::lround(std::abs(touch.wireAngle) / (2 * kPi))), 0});
+    return found;
+}
+
+ShapeForm Coil::form() const {
+    constexpr double kAroundWire = 12;  // pieces of its circumference
+    ShapeForm form{.solid = true, .approach = pitch / (2 * kPi)};
+    if (length < kMostSlender * pitch)
+        form.facet = std::max(2 * kPi * wireRadius / kAroundWire, 2 * kPi * radius / (10 * kPiecesAround));
+    return form;
+}
+
 int maxTouches(const Coil& coil, double a) {
     const auto whole = [](double turns) { return static_cast<int>(std::min(std::floor(turns), 1e9)); };
     const double reach = a + coil.wireRadius;

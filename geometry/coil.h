@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/features.h"
 #include "host/core/vec.h"
 
 namespace vkdose::geometry {
@@ -18,6 +18,11 @@ struct Coil {
     double zStart = 0;
     double startAngle = 0;  ///< [rad]
     int hand = 1;           ///< +1 right-handed, -1 left-handed
+
+    /// As it is at the angle 0. A turn is a feature of its own; its key is its number from the start of the wire.
+    std::vector<Feature> places(const Vec3& centre, double radius) const;
+    ShapeForm form() const;
+    void cut(Tessellator& into) const;
 };
 
 /// A local minimum of the distance to the wire. There is one per turn in reach. `wireAngle` = hand * 2 pi s / pitch

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/tessellator.h"
+
 namespace vkdose::geometry {
 
 namespace {
@@ -40,6 +42,11 @@ std::vector<Triangle> coilMesh(const Coil& coil, int around, int perTurn) {
     }
     for (int i = 1; i + 1 < around; ++i) mesh.push_back({last[0], last[i], last[i + 1]});
     return mesh;
+}
+
+void Coil::cut(Tessellator& into) const {
+    const double perTurn = std::hypot(2 * kPi * radius, pitch);
+    into.putAll(coilMesh(*this, into.pieces(2 * kPi * wireRadius, 3), into.pieces(perTurn, 3)));
 }
 
 }  // namespace vkdose::geometry

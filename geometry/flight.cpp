@@ -13,6 +13,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/tessellator.h"
+
 namespace vkdose::geometry {
 
 namespace {
@@ -138,6 +140,65 @@ std::vector<FlightTouch> touches(const Flight& flight, const Vec3& q, double rea
     }
     if (before < 0 && to == flight.angle) keep(to);
     return found;
+}
+
+std::vector<Feature> Flight::places(const Vec3& centre, double radius) const {
+    std::vector<Feature> found;
+    for (const FlightTouch& touch : touches(*this, centre, radius))
+        found.push_back({touch, std::uint32_t(std::lround(touch.theta / (2 * kPi))), 0});
+    return found;
+}
+
+ShapeForm Flight::form() const {
+    ShapeForm form{.solid = true, .curve = outerRadius};
+    if (angle < 2 * kPi * kMostSlender)
+        form.facet = 2 * kPi * std::max({outerRadius, pitchStart, pitchEnd}) / kPiecesAround;
+    return form;
+}
+
+namespace {
+
+/// A section of the blade: along the lower face outwards, along the upper one back.
+Tessellator::Corners sectionOf(const Flight& f, double theta, int across) {
+    const double azimuth = f.startAngle + f.hand * theta;
+    const Vec3 outward(std::cos(azimuth), std::sin(azimuth), 0);
+    Tessellator::Corners corners;
+    for (const int face : {-1, 1})
+        for (int i = 0; i <= across; ++i) {
+            const double share = double(face < 0 ? i : across - i) / across;
+            const double radius = f.innerRadius + share * (f.outerRadius - f.innerRadius);
+            corners.push_back(radius * outward + Vec3(0, 0, f.height(theta) + face * f.thickness / 2));
+        }
+    return corners;
+}
+
+/// Closes the blade at a section.
+void putEnd(Tessellator& into, const Tessellator::Corners& corners, int across, bool turned) {
+    const int last = 2 * across + 1;
+    for (int i = 0; i < across; ++i) {
+        const Vec3 &a = corners[i], &b = corners[i + 1], &c = corners[last - i - 1], &d = corners[last - i];
+        if (turned) {
+            into.put(a, c, b);
+            into.put(a, d, c);
+        } else {
+            into.put(a, b, c);
+            into.put(a, c, d);
+        }
+    }
+}
+
+}  // namespace
+
+/// Sections of the blade, each a rectangle whose sides are cut along the radius, joined to a tube with two ends.
+void Flight::cut(Tessellator& into) const {
+    const double outermost = std::hypot(2 * kPi * outerRadius, std::max(pitchStart, pitchEnd));
+    const int along = into.pieces(outermost * angle / (2 * kPi), 1);
+    const int across = into.straightPieces(outerRadius - innerRadius);
+    std::vector<Tessellator::Corners> sections;
+    for (int k = 0; k <= along; ++k) sections.push_back(sectionOf(*this, angle * k / along, across));
+    into.strips(sections, hand < 0);
+    putEnd(into, sections.front(), across, hand < 0);
+    putEnd(into, sections.back(), across, hand > 0);
 }
 
 }  // namespace vkdose::geometry

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/features.h"
 
 namespace vkdose::geometry {
 
@@ -24,6 +24,12 @@ struct Flight {
 
     double height(double theta) const;  ///< z of the blade's middle [m]
     double slope(double theta) const;   ///< its derivative [m/rad]
+
+    /// The key of a place is the number of its turn.
+    std::vector<Feature> places(const Vec3& centre, double radius) const;
+    ShapeForm form() const;
+    /// A solid with all its faces, without the shaft.
+    void cut(Tessellator& into) const;
 };
 
 /// A local minimum of the distance to the blade, at blade angle `theta`: one per turn in reach.

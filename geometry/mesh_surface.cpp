@@ -10,6 +10,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/tessellator.h"
+
 namespace vkdose::geometry {
 
 namespace {
@@ -128,6 +130,14 @@ std::vector<Feature> MeshSurface::placesAmong(const Triangles& triangles, const 
     }
     if (closest.distance < radius) places.push_back(closest);
     return places;
+}
+
+ShapeForm MeshSurface::form() const {
+    return {.solid = mesh_.closed, .facet = 1};
+}
+
+void MeshSurface::cut(Tessellator& into) const {
+    for (const auto& t : mesh_.triangles) into.put(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
 }
 
 std::vector<Feature> MeshSurface::places(const Vec3& centre, double radius) const {

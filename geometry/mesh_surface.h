@@ -16,6 +16,9 @@ class MeshSurface {
     /// place may stand there several times. Both sides of a triangle touch. Keys count triangles, then edges, then
     /// vertices.
     std::vector<Feature> places(const Vec3& centre, double radius) const;
+    ShapeForm form() const;
+    /// The mesh as it is.
+    void cut(Tessellator& into) const;
     /// The distinct features that a sphere of `radius` <= reach [m] touches (features.h).
     std::vector<Feature> touched(const Vec3& centre, double radius) const;
     /// The same, found without the grid, for any radius: the twin for tests.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "geometry/shape_form.h"
 #include "host/core/vec.h"
 
 namespace vkdose::geometry {
@@ -16,6 +17,8 @@ struct Closest {
     double distance = 0;  ///< signed: negative when the query point lies behind the surface [m]
 };
 
+class Tessellator;  // tessellator.h
+
 /// Some unit vector normal to the unit vector `axis`.
 Vec3 anyNormal(const Vec3& axis);
 
@@ -26,6 +29,11 @@ struct Plane {
     Vec3 point{0};
     Vec3 normal{0};  ///< unit, into the free side
     double end = kEndless;
+
+    Closest closest(const Vec3& q) const;
+    ShapeForm form() const;
+    void cut(Tessellator& into) const;
+    ShapeRecord record() const;
 };
 
 /// U-shaped profile along z: below the axis (y < 0) the inside of a cylinder of radius `halfWidth`, above it the
@@ -34,6 +42,11 @@ struct Plane {
 struct Trough {
     double halfWidth = 0;
     double end = kEndless;
+
+    Closest closest(const Vec3& q) const;
+    ShapeForm form() const;
+    void cut(Tessellator& into) const;
+    ShapeRecord record() const;
 };
 
 /// Cylinder wall of finite or infinite length, touched from inside or outside. Beyond an end the closest point
@@ -44,6 +57,11 @@ struct Tube {
     double radius = 0;
     double length = kEndless;
     bool inside = true;  ///< particles live inside
+
+    Closest closest(const Vec3& q) const;
+    ShapeForm form() const;
+    void cut(Tessellator& into) const;
+    ShapeRecord record() const;
 };
 
 /// Front wall plane z = `z` with a circular hole of radius `holeRadius` around the coil axis, and behind it the
@@ -52,6 +70,11 @@ struct Front {
     double z;
     double holeRadius;
     double throatLength;
+
+    Closest closest(const Vec3& q) const;
+    ShapeForm form() const;
+    void cut(Tessellator& into) const;
+    ShapeRecord record() const;
 };
 
 using Surface = std::variant<Plane, Trough, Tube, Front>;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/cone.h"
+#include "geometry/tessellator.h"
+
 namespace vkdose::geometry {
 
 namespace {
@@ -173,6 +176,33 @@ std::vector<Triangle> surfaceMesh(const std::vector<Surface>& surfaces, const Ve
     Mesher mesher(surfaces, low, high, around);
     for (const Surface& surface : surfaces) std::visit([&](const auto& s) { mesher.add(s); }, surface);
     return mesher.mesh();
+}
+
+namespace {
+
+/// `radius` [m] is that of the wall.
+void cutWall(const Surface& wall, double radius, Tessellator& into) {
+    into.putAll(surfaceMesh({wall}, into.low(), into.high(), into.pieces(2 * kPi * radius, 4)));
+}
+
+}  // namespace
+
+void Plane::cut(Tessellator& into) const {
+    cutWall(*this, 0, into);
+}
+
+void Trough::cut(Tessellator& into) const {
+    cutWall(*this, halfWidth, into);
+}
+
+void Front::cut(Tessellator& into) const {
+    cutWall(*this, holeRadius, into);
+}
+
+void Tube::cut(Tessellator& into) const {
+    if (std::isinf(length)) return cutWall(*this, radius, into);
+    Cone{base, axis, radius, radius, length}.cut(into);
+    if (inside) into.turnOver();
 }
 
 }  // namespace vkdose::geometry

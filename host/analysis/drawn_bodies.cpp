@@ -49,7 +49,7 @@ std::vector<DrawnBody> bodiesOf(const Case& c) {
 Skin endlessSkin(const RigidBody& body, const geometry::Pose& pose, const Box& content) {
     Skin skin;
     for (const geometry::Shape& shape : body.shapes)
-        if (isEndless(shape)) skin.add(skinOf(shapeMesh(shape, seenFrom(pose, content)), false));
+        if (formOf(shape).endless) skin.add(skinOf(shapeMesh(shape, seenFrom(pose, content)), false));
     return skin;
 }
 

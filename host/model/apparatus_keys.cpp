@@ -1,4 +1,5 @@
-// The keys of what the powder touches: canister and walls, the coil, bodies; and where powder is dosed.
+// The keys of what the powder touches: canister and walls, the coil, motions of bodies; and where powder is dosed.
+#include "host/model/body_shapes.h"
 #include "host/model/case_keys.h"
 
 namespace vkdose {
@@ -64,50 +65,6 @@ constexpr Key kCoil[] = {
         "its thickness. `false`: the wire is as flat as a wall"),
 };
 
-constexpr Key kBody[] = {
-    text("name", kRequired, "of the body, in messages and tables: letters, digits, `-` and `_`"),
-    word("shape", "mesh plane box ball cylinder cone disc trough wire screw", "mesh",
-         "in the body's own frame: a plane through the origin; a box or a ball about it; all others around the z axis, "
-         "from z = 0 on")
-        .replacing("*"),
-    word("contact", "wall coil", "wall",
-         "whose contact parameters it has: those of `[contact.wall]` or `[contact.coil]`")
-        .replacing("material"),
-    text("material", told("none"), "in place of `contact`: name of a `[[material]]` that it is made of")
-        .replacing("contact"),
-    text("moves_with", told("none"),
-         "in place of `[body.motion]`: name of a `[[body]]` before it, whose motion it shares, as if the two were one. "
-         "Not of one that is `free` or on a `hinge`")
-        .replacing("motion"),
-    vector("at", kMetre, {0, 0, 0},
-           "where the origin of its frame is at the start; of a body that swings or shakes, in the middle of its way"),
-    vector("rotation_axis", kPlain, {0, 0, 1}, "direction of the axis about which its frame is turned at the start"),
-    number("rotation_deg", kDegree, Bound::Any, 0.0, "the angle of that turn"),
-};
-constexpr Key kBodyMesh[] = {
-    text("mesh", kRequired, "an STL, OBJ or PLY file; the path is relative to the case file"),
-    text("unit", kRequired, "of the lengths in the file: `\"m\"`, `\"cm\"`, `\"mm\"`, `\"um\"`, `\"inch\"`"),
-};
-constexpr Key kBodyShape[] = {
-    vector("normal", kPlain, {0, 1, 0}, "`plane`: points to the side of the particles"),
-    vector("size_mm", kMillimetre, kRequired, "`box`: its three edges"),
-    boolean("inside", false, "`box`: whether it is a room with the particles inside"),
-    number("radius_mm", kMillimetre, kPositive, kRequired,
-           "`ball`, `cylinder`, `disc`, `screw`: outer radius; `cone`: radius at z = 0; `wire`: of its centre line"),
-    boolean("curvature", false,
-            "`ball`: whether the reduced size a* of a contact counts its radius. `false`: it is as flat as a wall"),
-    number("end_radius_mm", kMillimetre, kNonNegative, kRequired, "`cone`: radius at its other end"),
-    number("hole_radius_mm", kMillimetre, kNonNegative, 0.0, "`disc`: of the hole in its middle"),
-    number("length_mm", kMillimetre, kPositive, kRequired, "`cylinder`, `cone`, `wire`, `screw`: along z"),
-    boolean("ends", false, "`cylinder`: whether a disc closes each end"),
-    number("width_mm", kMillimetre, kPositive, kRequired, "`trough`: between its sides; it has no ends"),
-    number("pitch_mm", kMillimetre, kPositive, kRequired, "`wire`, `screw`: length of one turn"),
-    number("pitch_end_mm", kMillimetre, kPositive, told("`pitch_mm`"), "`screw`: at its end; it changes evenly"),
-    number("wire_diameter_mm", kMillimetre, kPositive, kRequired, "`wire`: its thickness"),
-    number("shaft_radius_mm", kMillimetre, kPositive, kRequired, "`screw`: of the shaft that carries the blade"),
-    number("thickness_mm", kMillimetre, kPositive, kRequired, "`screw`: of the blade, along z"),
-    word("hand", "right left", "right", "`wire`, `screw`: hand of the helix"),
-};
 constexpr Key kMotion[] = {
     word("kind", "turn swing shake slide table free hinge", kRequired,
          "`turn`: about an axis at a speed; `swing`: to and fro about it; `shake`: to and fro along it; `slide`: along "
@@ -174,26 +131,26 @@ constexpr Key kCountRegion[] = {
     vector("high", kMetre, kRequired, "`box`: its high corner"),
 };
 
-constexpr KeyTable kTables[] = {
-    {"canister", kCanister, ""},
-    {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
-    {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},
-    {"coil", kCoil,
-     "A round wire on a helix, closed by round caps, turns as a rigid body. Without this table there is no coil."},
-    {"body[]", kBody,
-     "A body of your own: a mesh, or an exact shape. It has a place, and may move. Keys for all bodies:"},
-    {"body[]", kBodyMesh, "A mesh from a CAD program, `shape = \"mesh\"`:"},
-    {"body[]", kBodyShape, "The other shapes take those of these keys that name them:"},
-    {"body[].motion", kMotion,
-     "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
-    {"region[]", kCountRegion,
-     "Where powder is dosed or counted, a table for each. Without a region that deletes, powder is dosed behind the "
-     "throat of a canister, and nowhere else."},
-};
-
 }  // namespace
 
 std::span<const KeyTable> apparatusKeys() {
+    static const KeyTable kTables[] = {
+        {"canister", kCanister, ""},
+        {"plane[]", kPlane, "A wall without end, for `boundaries = \"list\"`."},
+        {"cylinder[]", kCylinder, "A round wall, for `boundaries = \"list\"`."},
+        {"coil", kCoil,
+         "A round wire on a helix, closed by round caps, turns as a rigid body. Without this table there is no coil."},
+        {"body[]", bodyKeys(),
+         "A body of your own: a mesh, or an exact shape. It has a place, and may move. Keys for all bodies:"},
+        {"body[]", bodyMeshKeys(), "A mesh from a CAD program, `shape = \"mesh\"`:"},
+        {"body[]", bodyShapeKeys(), "The other shapes take those of these keys that name them:"},
+        {"body[].motion", kMotion,
+         "How the body moves; without this table it rests. Axes and points stand in the frame of the case."},
+        {"region[]", kCountRegion,
+         "Where powder is dosed or counted, a table for each. Without a region that deletes, powder is dosed behind "
+         "the "
+         "throat of a canister, and nowhere else."},
+    };
     return kTables;
 }
 

@@ -4,50 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 
 namespace vkdose {
 
-namespace {
-
 using geometry::Triangle;
-
-/// Pieces of a round shape's circumference, and of a wire's.
-constexpr double kAround = 48, kAroundWire = 12;
-/// A shape with more turns, or so many times as long as wide, is no device; its triangles would fill the memory.
-constexpr double kLongest = 1000;
-
-/// The length of the triangles' sides [m]; 0 for a shape that is left out.
-struct Facet {
-    static double round(double radius, double length) {
-        return length < kLongest * radius ? 2 * kPi * radius / kAround : 0;
-    }
-    double operator()(const geometry::Cone& s) const { return round(std::max(s.baseRadius, s.endRadius), s.length); }
-    double operator()(const geometry::Tube& s) const { return round(s.radius, s.length); }
-    double operator()(const geometry::Ball& s) const { return round(s.radius, 0); }
-    double operator()(const geometry::Block& s) const { return glm::length(s.high - s.low); }
-    double operator()(const geometry::Coil& s) const {
-        if (!(s.length < kLongest * s.pitch)) return 0;
-        return std::max(2 * kPi * s.wireRadius / kAroundWire, 2 * kPi * s.radius / (10 * kAround));
-    }
-    double operator()(const geometry::Flight& s) const {
-        const double outermost = std::max({s.outerRadius, s.pitchStart, s.pitchEnd});
-        return s.angle < 2 * kPi * kLongest ? 2 * kPi * outermost / kAround : 0;
-    }
-    double operator()(const std::shared_ptr<const geometry::MeshSurface>&) const { return 1; }
-    template <class Endless>
-    double operator()(const Endless&) const {
-        return 0;
-    }
-};
-
-}  // namespace
 
 std::vector<Triangle> trianglesOf(const RigidBody& body) {
     std::vector<Triangle> all;
     const geometry::Pose pose = body.pose(0, 0);
     for (const geometry::Shape& shape : body.shapes) {
-        const double facet = std::visit(Facet{}, shape);
+        const double facet = geometry::formOf(shape).facet;
         if (!(facet > 0)) continue;
         for (Triangle t : geometry::tessellated(shape, facet, Vec3(0), Vec3(0))) {
             for (Vec3& corner : t) corner = pose.toWorld(corner);

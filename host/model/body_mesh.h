@@ -15,12 +15,6 @@ inline constexpr int kCornersAround = 64;
 /// The same of a wire's cross-section.
 inline constexpr int kWireAround = 10;
 
-/// Whether the shape goes on for ever: a plane, a trough, a tube without ends.
-bool isEndless(const geometry::Shape& shape);
-/// Whether triangles of the shape enclose matter: a ball, a solid box, a wire, a blade, a closed mesh. A wall without
-/// thickness does not.
-bool isSolid(const geometry::Shape& shape);
-
 /// A shape of a body in the frame of the body [m]. Round parts get `perTurn` corners to a turn, a wire `around`
 /// around itself. A mesh stays as it is. An endless shape is cut off at `room`, which is in the frame of the body too.
 std::vector<geometry::Triangle> shapeMesh(const geometry::Shape& shape, const Box& room, int perTurn = kCornersAround,

@@ -105,7 +105,8 @@ class Search {
     void add(const RigidBody& body, const Particles& particles) {
         const geometry::Pose pose = body.pose(0, 0);
         Thing thing{[&body, pose, radius = radius_](const Vec3& q) { return nearestOf(body, pose, q, radius); }};
-        const bool ends = std::none_of(body.shapes.begin(), body.shapes.end(), isEndless);
+        const bool ends = std::none_of(body.shapes.begin(), body.shapes.end(),
+                                       [](const geometry::Shape& s) { return formOf(s).endless; });
         meshes_.push_back(placed(bodyMesh(body, c_.world.domain), pose));
         if (ends && !meshes_.back().empty()) {
             thing.low = Vec3(geometry::kEndless);

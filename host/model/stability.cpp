@@ -23,10 +23,13 @@ constexpr double kWall = kInfinity;
 
 /// The surface of a body, with both sides of it if a part has no thickness; infinite if it has no end [m2].
 double surfaceOf(const RigidBody& body) {
-    if (std::any_of(body.shapes.begin(), body.shapes.end(), isEndless)) return kInfinity;
+    if (std::any_of(body.shapes.begin(), body.shapes.end(), [](const geometry::Shape& s) { return formOf(s).endless; }))
+        return kInfinity;
     double area = 0;
     for (const geometry::Triangle& t : trianglesOf(body)) area += glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) / 2;
-    return std::all_of(body.shapes.begin(), body.shapes.end(), isSolid) ? area : 2 * area;
+    return std::all_of(body.shapes.begin(), body.shapes.end(), [](const geometry::Shape& s) { return formOf(s).solid; })
+               ? area
+               : 2 * area;
 }
 
 /// The most spheres of radius `a` that can touch a body with this surface at once. They cover a ball of the same

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "geometry/coil_mesh.h"
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "host/verify/cases.h"
 #include "host/verify/setups.h"
 

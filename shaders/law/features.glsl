@@ -30,8 +30,10 @@
 
 #define HAS_SHAPE(kind) ((SHAPE_KINDS & (1u << (kind))) != 0u)
 
-const uint kExactShapes = (1u << kShapePlane) | (1u << kShapeTrough) | (1u << kShapeTube) | (1u << kShapeFront) |
-                          (1u << kShapeCone) | (1u << kShapeBall) | (1u << kShapeBlock);
+#define SHAPE(number, Name, kind, overlap) | (1u << kind)
+const uint kExactShapes = 0u
+#include "shared/shapes.h"
+    ;
 
 /// Whether a point is within `reach` of the sphere in vector `at`.
 bool withinSphere(uint at, vec3 centre, float reach) {
@@ -53,13 +55,9 @@ ShapeData shapeData(uint shape) {
 /// Overlap with a shape that has a single closest point.
 Overlap exactOverlap(uint kind, ShapeData s, Two3 centre, float radius) {
     Overlap o = Overlap(-1.0, vec3(0.0));
-    if (HAS_SHAPE(kShapePlane) && kind == kShapePlane) o = planeShape(s, centre, radius);
-    if (HAS_SHAPE(kShapeTrough) && kind == kShapeTrough) o = troughShape(s, centre, radius);
-    if (HAS_SHAPE(kShapeTube) && kind == kShapeTube) o = tubeShape(s, centre, radius);
-    if (HAS_SHAPE(kShapeFront) && kind == kShapeFront) o = frontShape(s, centre, radius);
-    if (HAS_SHAPE(kShapeCone) && kind == kShapeCone) o = coneShape(s, centre, radius);
-    if (HAS_SHAPE(kShapeBall) && kind == kShapeBall) o = ballShape(s, centre, radius);
-    if (HAS_SHAPE(kShapeBlock) && kind == kShapeBlock) o = blockShape(s, centre, radius);
+#define SHAPE(number, Name, shape, overlap) \
+    if (HAS_SHAPE(shape) && kind == shape) o = overlap(s, centre, radius);
+#include "shared/shapes.h"
     return o;
 }
 

@@ -2,17 +2,18 @@
 // the frame of the body. Distances are formed in two-float arithmetic from the nearest point of the shape, so that an
 // overlap has the relative error of a single float, however large the shape is.
 //
-// What vectors 2 to 7 of a shape's record hold:
+// What vectors 2 to 7 of a shape's record hold (geometry::ShapeRecord). Vectors 3 and 5 are the low parts of 2 and 4;
+// in 6 and 7 each number stands with its low part.
 //
-//   plane, tube, cone  2: point, length   3: low part of both   4: axis   5: its low part
-//                      6: radius, low part, radius at the end, low part   7: wall in the half plane: across, low part,
-//                      along, low part; for a tube: 1 if touched from inside, 1 if endless
-//                      plane: the axis is the normal; 7: 1 if it ends, at the z of its point
-//   ball               2: centre    3: low part   6: radius, low part
-//   block, room        2: low corner   3: low part   4: high corner   5: low part
-//   trough             2: -, -, z of its end   3: low part   6: half width, low part   7: 1 if it ends
-//   front              2: -, -, z, length of the throat   3: low part of both   6: radius of the hole, low part
-//   wire               2 to 4: CoilParams (shared/geometry.h); 7: the angle of its start in turns
+//   plane        2: point   4: normal   7: 1 if it ends, at the z of its point
+//   trough       2: -, -, z of its end   6: half width   7: 1 if it ends
+//   tube         2: base, length   4: axis   6: radius   7: 1 if touched from inside; 1 if endless
+//   front        2: -, -, z, length of the throat   6: radius of the hole
+//   cone         2: base, length of its wall   4: axis   6: radius; radius at the end   7: its wall in the half plane:
+//                across; along
+//   ball         2: centre   6: radius
+//   block, room  2: low corner   4: high corner
+//   wire         2 to 4: CoilParams (shared/geometry.h); 7: the angle of its start in turns
 #ifndef VKDOSE_LAW_SHAPE_GLSL
 #define VKDOSE_LAW_SHAPE_GLSL
 
@@ -56,7 +57,7 @@ Overlap tubeShape(ShapeData s, Two3 centre, float radius) {
     vec2 off = twoAdd(view.rho, -s.v6.xy);
     vec2 beyond = twoAdd(view.along, -vec2(s.v2.w, s.v3.w));
     if (view.along.x < 0.0) beyond = view.along;
-    bool endless = s.v7.y != 0.0;
+    bool endless = s.v7.z != 0.0;
     if (!endless && (view.along.x < 0.0 || beyond.x > 0.0)) {
         vec3 rim = overlapInPlane(off, beyond, radius, vec2(0.0, 1.0));
         return Overlap(rim.x, view.outward * rim.y + s.v4.xyz * rim.z);

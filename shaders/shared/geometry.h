@@ -32,16 +32,10 @@ SHARED_CONST kShapeVectors = 8u;
 SHARED_CONST kMaxBodyFeatures = 8u;  // geometry::kMaxFeatures
 SHARED_CONST kFewPlaces = 4u;        // of one body, that law/places.glsl keeps in its short list
 SHARED_REAL kEverywhere = 1e15f;     // radius of the sphere around a shape without an end [m]
-SHARED_REAL kEndlessLength = 1e15f;  // [m]
 
 // Kinds of shapes. The first four are those of the fixed surfaces (layout.h: kPlane, kTrough, kTube, kFront).
-SHARED_CONST kShapePlane = 0u;
-SHARED_CONST kShapeTrough = 1u;
-SHARED_CONST kShapeTube = 2u;
-SHARED_CONST kShapeFront = 3u;
-SHARED_CONST kShapeCone = 4u;
-SHARED_CONST kShapeBall = 5u;
-SHARED_CONST kShapeBlock = 6u;
+#define SHAPE(number, Name, kind, overlap) SHARED_CONST kind = number;
+#include "shapes.h"
 SHARED_CONST kShapeRoom = 7u;
 SHARED_CONST kShapeWire = 8u;
 SHARED_CONST kShapeMesh = 9u;

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "geometry/mesh_writer.h"
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "tests/advice/slips.h"
 #include "tests/advice/warnings.h"
 #include "tests/support/catch.h"

@@ -9,7 +9,7 @@
 
 #include "geometry/flight.h"
 #include "geometry/mesh_writer.h"
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "host/advice/advice.h"
 #include "host/app/backends.h"
 #include "host/app/new_design.h"

@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "geometry/tessellate.h"
 #include "tests/support/catch.h"
 #include "tests/support/near.h"
 
@@ -165,6 +164,21 @@ TEST_CASE("meshes of solid shapes are closed, face outwards and enclose the volu
     }
 }
 
+TEST_CASE("a shape tells whether it ends, whether it is solid, and how fine its triangles have to be") {
+    for (const Sample& s : samples()) {
+        CAPTURE(s.name);
+        const ShapeForm form = formOf(s.shape);
+        CHECK(form.endless == std::holds_alternative<Trough>(s.shape));
+        CHECK(form.solid == (s.solid && s.volume > 0));  // a room is closed as well, but matter is outside of it
+        CHECK((form.facet > 0) != form.endless);
+        if (s.curve < kEndless) CHECK(form.facet < form.curve);
+    }
+    CHECK(formOf(Plane{{0, 0, 0}, {0, 1, 0}}).endless);
+    CHECK(formOf(Tube{{0, 0, 0}, {0, 0, 1}, 1e-3}).endless);
+    CHECK(formOf(Tube{{0, 0, 0}, {0, 0, 1}, 1e-3}).facet == 0);
+    CHECK(formOf(Cone{{0, 0, 0}, {0, 0, 1}, 1e-3, 1e-3, 2}).facet == 0);  // a thread of two metres
+}
+
 TEST_CASE("closest points of shapes are consistent, and no point of the mesh is nearer") {
     for (const Sample& s : samples()) {
         const auto triangles = tessellated(s.shape, s.facet, s.low - 2e-3, s.high + 2e-3);
@@ -275,7 +289,7 @@ TEST_CASE("a shape that turns about z comes no nearer to a point than it says") 
                                Shape{Cone{{0, 0, 1e-3}, {0, 0, -1}, 8e-3, 2e-3, 9e-3}}, Shape{Ball{{0, 0, 3e-3}, 4e-3}},
                                Shape{Plane{{1e-3, 2e-3, 0}, {0, 0, 1}}}}) {
         CAPTURE(shape.index());
-        const std::optional<double> approach = approachByTurning(shape);
+        const std::optional<double> approach = formOf(shape).approach;
         REQUIRE(approach);
         const auto distance = [&](const Vec3& q) {
             double least = 1;
@@ -290,8 +304,8 @@ TEST_CASE("a shape that turns about z comes no nearer to a point than it says") 
             CHECK(std::abs(distance(turned) - distance(q)) <= *approach * std::abs(angle) + 1e-9);
         }
     }
-    CHECK_FALSE(approachByTurning(Tube{{1e-3, 0, 0}, {0, 0, 1}, 10e-3, 20e-3, true}));
-    CHECK_FALSE(approachByTurning(Plane{{0, 0, 0}, {0, 1, 0}}));
-    CHECK_FALSE(approachByTurning(Block{Vec3(-1e-3), Vec3(1e-3), false}));
-    CHECK_FALSE(approachByTurning(kScrew));
+    CHECK_FALSE(Tube{{1e-3, 0, 0}, {0, 0, 1}, 10e-3, 20e-3, true}.form().approach);
+    CHECK_FALSE(Plane{{0, 0, 0}, {0, 1, 0}}.form().approach);
+    CHECK_FALSE(Block{Vec3(-1e-3), Vec3(1e-3), false}.form().approach);
+    CHECK_FALSE(kScrew.form().approach);
 }

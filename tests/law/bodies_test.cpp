@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "host/core/error.h"
 #include "host/sim/energy_ledger.h"
 #include "tests/law/setups.h"

@@ -6,7 +6,6 @@
 
 #include "geometry/matching.h"
 #include "geometry/shape.h"
-#include "geometry/tessellate.h"
 #include "host/backend/reference/contact.h"
 #include "tests/geometry/shatter.h"
 #include "tests/law/setups.h"

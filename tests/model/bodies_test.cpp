@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "geometry/mesh_writer.h"
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "host/core/error.h"
 #include "host/model/body_form.h"
 #include "tests/model/body_reader.h"

@@ -2,7 +2,7 @@
 // Cases with bodies that a test writes.
 
 #include "geometry/mesh_writer.h"
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "tests/model/case_files.h"
 
 namespace vkdose::test {

@@ -2,7 +2,7 @@
 // precision: for random spheres at every shape, at meshes cut in odd ways, with bodies that are turned.
 
 #include "tests/pass/body_features.h"
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "host/core/error.h"
 #include "tests/geometry/damaged.h"
 #include "tests/geometry/shatter.h"

@@ -267,7 +267,7 @@ TEST_CASE("the same scene gives the same bits, and an empty one an empty picture
 namespace {
 
 void addBody(Scene& scene, const geometry::Shape& shape, bool seeThrough, int around = 64) {
-    for (const Facet& f : skinOf(shapeMesh(shape, {}, around), isSolid(shape)).facets)
+    for (const Facet& f : skinOf(shapeMesh(shape, {}, around), formOf(shape).solid).facets)
         scene.facets.push_back({f, seeThrough});
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Bodies with spheres on them, for scenes on both backends.
 
-#include "geometry/tessellate.h"
+#include "geometry/shape.h"
 #include "tests/scene/beds.h"
 
 namespace vkdose::test {

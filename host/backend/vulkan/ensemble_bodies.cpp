@@ -51,7 +51,7 @@ struct Instant {
     }
 };
 
-/// As approachByTurning, of a body that turns about the z axis of its frame.
+/// As ShapeForm::approach, of a body that turns about the z axis of its frame.
 std::optional<double> approachByTurning(const RigidBody& body) {
     const auto* turn = std::get_if<geometry::Turn>(&body.course.motion);
     if (turn == nullptr) return std::nullopt;
@@ -61,7 +61,7 @@ std::optional<double> approachByTurning(const RigidBody& body) {
     if (std::hypot(axis.x, axis.y) > kSame || std::hypot(through.x, through.y) > kSame) return std::nullopt;
     double most = 0;
     for (const geometry::Shape& shape : body.shapes) {
-        const std::optional<double> approach = geometry::approachByTurning(shape);
+        const std::optional<double> approach = formOf(shape).approach;
         if (!approach) return std::nullopt;
         most = std::max(most, *approach);
     }

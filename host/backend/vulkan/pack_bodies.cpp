@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -20,6 +21,7 @@ using gpu::uvec4;
 using gpu::vec4;
 
 static_assert(gpu::kMaxBodyFeatures == geometry::kMaxFeatures);
+static_assert(gpu::kShapeRoom == std::uint32_t(geometry::ShapeKind::Room));
 static_assert(gpu::kShapePlane == gpu::kPlane && gpu::kShapeTrough == gpu::kTrough && gpu::kShapeTube == gpu::kTube &&
               gpu::kShapeFront == gpu::kFront);
 static_assert(sizeof(gpu::BodyMotion) == gpu::kMotionVectors * sizeof(vec4));
@@ -79,83 +81,28 @@ class Packer {
 
     void set(std::size_t vector, const vec4& v) { table_[shape_ + vector] = bits(v); }
 
-    /// A point and a length, high parts in vector `at`, low parts in the next.
-    void setPair(std::size_t at, const Vec3& v, double last = 0) {
-        const Split3 p(v);
-        const Split l(last);
+    void setPair(std::size_t at, const geometry::ShapeRecord::Pair& pair) {
+        const Split3 p(pair.vector);
+        const Split l(pair.last);
         set(at, vec4(p.high, l.high));
         set(at + 1, vec4(p.low, l.low));
     }
 
-    void setScalars(std::size_t at, double first, double second) {
-        const Split a(first), b(second);
+    void setScalars(std::size_t at, const std::array<double, 2>& two) {
+        const Split a(two[0]), b(two[1]);
         set(at, vec4(a.high, a.low, b.high, b.low));
     }
 
-    Around pack(const geometry::Plane& plane) {
-        const bool ends = plane.end < geometry::kEndless;
-        head(gpu::kShapePlane, 1, 1);
-        // A plane that ends is parallel to z, so that the point may be moved along z to the end.
-        setPair(2, ends ? Vec3(plane.point.x, plane.point.y, plane.end) : plane.point);
-        setPair(4, plane.normal);
-        set(7, vec4(ends ? 1.0f : 0.0f, 0, 0, 0));
-        return kAroundEndless;
-    }
-
-    Around pack(const geometry::Tube& tube) {
-        const bool endless = std::isinf(tube.length);
-        // An endless tube goes both ways from its base.
-        const double length = endless ? double(gpu::kEndlessLength) : tube.length;
-        head(gpu::kShapeTube, 1, 1);
-        setPair(2, tube.base, length);
-        setPair(4, tube.axis);
-        setScalars(6, tube.radius, 0);
-        set(7, vec4(tube.inside ? 1.0f : 0.0f, endless ? 1.0f : 0.0f, 0, 0));
-        if (endless || tube.inside) return kAroundEndless;
-        return {tube.base + 0.5 * tube.length * tube.axis, std::hypot(tube.radius, tube.length / 2)};
-    }
-
-    Around pack(const geometry::Cone& cone) {
-        const double dr = cone.endRadius - cone.baseRadius, wall = std::hypot(dr, cone.length);
-        head(gpu::kShapeCone, 1, 1);
-        setPair(2, cone.base, wall);
-        setPair(4, cone.axis);
-        setScalars(6, cone.baseRadius, cone.endRadius);
-        setScalars(7, dr / wall, cone.length / wall);
-        return {cone.base + 0.5 * cone.length * cone.axis,
-                std::hypot(std::max(cone.baseRadius, cone.endRadius), cone.length / 2)};
-    }
-
-    Around pack(const geometry::Ball& ball) {
-        head(gpu::kShapeBall, 1, 1);
-        setPair(2, ball.centre);
-        setScalars(6, ball.radius, 0);
-        return {ball.centre, ball.radius};
-    }
-
-    Around pack(const geometry::Block& block) {
-        const uint32_t walls = block.inside ? 6 : 1;
-        head(block.inside ? gpu::kShapeRoom : gpu::kShapeBlock, walls, walls);
-        setPair(2, block.low);
-        setPair(4, block.high);
-        if (block.inside) return kAroundEndless;
-        return {0.5 * (block.low + block.high), 0.5 * glm::length(block.high - block.low)};
-    }
-
-    Around pack(const geometry::Trough& trough) {
-        const bool ends = trough.end < geometry::kEndless;
-        head(gpu::kShapeTrough, 1, 1);
-        setPair(2, Vec3(0, 0, ends ? trough.end : 0));
-        setScalars(6, trough.halfWidth, 0);
-        set(7, vec4(ends ? 1.0f : 0.0f, 0, 0, 0));
-        return kAroundEndless;
-    }
-
-    Around pack(const geometry::Front& front) {
-        head(gpu::kShapeFront, 1, 1);
-        setPair(2, Vec3(0, 0, front.z), front.throatLength);
-        setScalars(6, front.holeRadius, 0);
-        return kAroundEndless;
+    /// A shape that the device has no tables for.
+    template <class Exact>
+    Around pack(const Exact& shape) {
+        const geometry::ShapeRecord r = shape.record();
+        head(std::uint32_t(r.kind), r.places, r.places);
+        setPair(2, r.first);
+        setPair(4, r.second);
+        setScalars(6, r.sizes);
+        setScalars(7, r.more);
+        return r.around.value_or(kAroundEndless);
     }
 
     gpu::CoilParams wireParams(const geometry::Coil& c) const {
@@ -205,7 +152,7 @@ class Packer {
                             "larger pitch, smaller spheres, or --backend reference",
                             name_, (2 * reach_ + f.thickness) / least + 3, uint32_t(gpu::kMostFlightTurns)));
         head(gpu::kShapeFlight, uint32_t(turns) + 2, gpu::kFewPlaces);
-        setScalars(2, f.innerRadius, f.outerRadius);
+        setScalars(2, {f.innerRadius, f.outerRadius});
         const bool simple = least * least >= reach_ * std::abs(change);
         set(3, vec4(float(f.thickness / 2), float(change / 2), float(f.hand), simple ? 1.0f : 0.0f));
         const double whole = std::floor(turns), start = f.startAngle / (2 * kPi);

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/shape_form.h"
 #include "host/core/error.h"
-#include "host/core/vec.h"
 #include "shaders/shared/geometry.h"
 
 namespace vkdose {
@@ -27,11 +27,7 @@ inline gpu::uvec4 bits(const glm::vec3& v, float last = 0.0f) {
     return bits(v, bits(last));
 }
 
-/// A sphere around a part of a body, in the body's frame [m].
-struct Around {
-    Vec3 centre{0};
-    double radius = 0;
-};
+using geometry::Around;
 
 /// A place in the table. Throws RunError if it has no room for it.
 inline std::uint32_t tableIndex(std::size_t i) {
