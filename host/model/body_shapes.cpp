@@ -131,11 +131,11 @@ BodyShape readMesh(const BodyReader& b) {
             b.fault("unit",
                     fmt::format("makes the mesh {:.4g} m long, and at most {} m are computed", longest, kLargestMesh),
                     otherUnits(longest / *metres));
-        if (!checked.facts.mended.empty()) b.c.mendedMeshes.emplace_back(b.c.world.bodies.size(), checked.facts.mended);
+        if (!checked.facts.mended.empty()) b.read.mended.emplace_back(b.read.bodies.size(), checked.facts.mended);
         s.record("mesh", std::filesystem::absolute(file).lexically_normal().string());
-        b.c.files.push_back(file);
-        if (!(b.meshReach > 0)) return {};
-        return {{std::make_shared<const geometry::MeshSurface>(std::move(checked.mesh), b.meshReach)}};
+        b.read.files.push_back(file);
+        if (!b.meshReach) return {};
+        return {{std::make_shared<const geometry::MeshSurface>(std::move(checked.mesh), *b.meshReach)}};
     } catch (const geometry::MeshError& e) {
         b.fault("mesh", e.what(), "mend the mesh");
         return {};

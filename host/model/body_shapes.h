@@ -2,6 +2,7 @@
 // The shapes of [[body]]: the keys that they are read from, and what they make. A word of the key `shape` stands for
 // one or several shapes of geometry/shape.h.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,8 +22,8 @@ std::span<const Key> bodyShapeKeys();
 struct BodyReader {
     CaseReader& reader;
     Section& section;
-    double meshReach;  ///< [m]; NaN while the case is at fault
-    Case& c;
+    std::optional<double> meshReach;  ///< [m]; absent while the case is at fault
+    BodiesRead& read;                 ///< with the bodies before it
 
     void fault(std::string_view key, std::string problem, std::string remedy) const {
         reader.fault(section.path(key), std::move(problem), std::move(remedy));

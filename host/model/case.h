@@ -179,7 +179,7 @@ struct Case {
     std::vector<std::string> derivations;
     /// What was mended in the mesh of a body: its number and the words for it.
     std::vector<std::pair<std::size_t, std::string>> mendedMeshes;
-    /// What single precision changes most of the answers of a user's law; nothing without such a law.
+    /// What single precision changes most of the answers of a user's law. Absent without such a law.
     std::optional<LawRounding> lawRounding;
     std::string resolved;                      ///< the case as TOML with every default and --set applied
     std::string given;                         ///< as TOML, `base` and --set in it, without what follows from it

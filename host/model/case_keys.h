@@ -1,6 +1,6 @@
 #pragma once
-// Every key of a case file. The readers (read_powder.cpp, read_apparatus.cpp, read_field.cpp, case.cpp) take units,
-// bounds, words and defaults from here. The keys of the top of the file stand in case_keys.cpp.
+// Every key of a case file. The readers (case_sections.h) take units, bounds, words and defaults from here. The keys of
+// the top of the file stand in case_keys.cpp.
 
 #include <cstdint>
 

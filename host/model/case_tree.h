@@ -63,7 +63,7 @@ std::string valueText(const Node& value);
 std::string treeText(Node tree);
 
 /// Lays `upper` over `lower`, table by table. A table over a list of tables, as in `body.gate.at`, changes the one of
-/// that name; throws CaseError if there is none. A key of `upper` also removes the keys in `lower` that it excludes:
+/// that name, or throws CaseError. A key of `upper` also removes the keys in `lower` that it excludes:
 /// `pitch_mm` removes `turns`, and another `distribution` removes the keys of the old one.
 void merge(Node& lower, Node upper);
 

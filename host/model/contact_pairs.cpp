@@ -15,7 +15,7 @@ const std::string& nameOf(const World& world, int material) {
     return world.materials.at(static_cast<std::size_t>(material)).name;
 }
 
-/// Index of a material by its name; nothing if there is none.
+/// Index of the material of that name, if there is one.
 std::optional<int> materialNamed(const World& world, std::string_view name) {
     for (std::size_t m = 0; m < world.materials.size(); ++m)
         if (world.materials[m].name == name) return static_cast<int>(m);

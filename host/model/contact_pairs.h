@@ -35,7 +35,7 @@ std::string contactKey(CaseReader& reader, const World& world, MaterialPair pair
 std::string contactPath(CaseReader& reader, const World& world, MaterialPair pair);
 
 /// Refuses tables of pairs that cannot be: of unknown materials, of two walls, given in both orders, or that have a
-/// name of their own. Call after all materials are read.
+/// name of their own.
 void checkPairTables(CaseReader& reader, Section& contact, const World& world);
 
 /// What springs or dashpots in series have together, of two halves each twice as stiff: 2 a b/(a + b).

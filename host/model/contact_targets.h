@@ -37,8 +37,8 @@ struct MeanContact {
     double reduced = 0;  ///< a* [m]
     double radius = 0;   ///< [m]
     double weight = 0;   ///< of the mean sphere [N]; 0 without gravity
-    /// Mean force at the floor of the bed [N]; nothing where there is no bed: without a canister, or if gravity does
-    /// not pull down.
+    /// Mean force at the floor of the bed [N]. Absent without a bed: without a canister, or if gravity does not pull
+    /// down.
     std::optional<double> load;
 };
 

@@ -117,7 +117,7 @@ Steadiness steadinessOf(const Case& c, const RigidBody& body) {
     return {in(Phase::Rotate) && even, inRests};
 }
 
-/// Those of one clock that carry powder out together; none if none does.
+/// Those of one clock that carry powder out together.
 Conveyance together(std::vector<Conveyor> all) {
     Conveyance sum;
     const auto carries = [](const Conveyor& a) { return a.section * a.lead * a.turns; };

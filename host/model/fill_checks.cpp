@@ -221,7 +221,7 @@ void findVessel(CaseReader& reader, Section& particles, Case& c) {
         return;
     }
     filling.sites = std::make_shared<const std::vector<std::uint64_t>>(
-        sitesInside(c.world, grid, boxAround(c.world, filling.vessel), grid.pitch() / 2));
+        sitesInside(c.world, grid, boxAround(c.world.bodies, filling.vessel), grid.pitch() / 2));
     if (filling.height) fillToHeight(reader, particles, c);
 }
 

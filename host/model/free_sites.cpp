@@ -9,10 +9,10 @@
 
 namespace vkdose {
 
-Box boxAround(const World& world, const std::vector<std::size_t>& bodies) {
+Box boxAround(const std::vector<RigidBody>& bodies, const std::vector<std::size_t>& which) {
     Box box{Vec3(std::numeric_limits<double>::infinity()), Vec3(-std::numeric_limits<double>::infinity())};
-    for (const std::size_t body : bodies)
-        for (const geometry::Triangle& triangle : trianglesOf(world.bodies.at(body)))
+    for (const std::size_t body : which)
+        for (const geometry::Triangle& triangle : trianglesOf(bodies.at(body)))
             for (const Vec3& corner : triangle) {
                 box.low = glm::min(box.low, corner);
                 box.high = glm::max(box.high, corner);

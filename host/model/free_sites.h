@@ -11,9 +11,9 @@
 
 namespace vkdose {
 
-/// The box around these of the world's bodies as they stand at the start. Shapes without an end do not count; without
+/// The box around these of the bodies as they stand at the start. Shapes without an end do not count; without
 /// any other its `high` is below its `low`.
-Box boxAround(const World& world, const std::vector<std::size_t>& bodies);
+Box boxAround(const std::vector<RigidBody>& bodies, const std::vector<std::size_t>& which);
 
 /// The sites, ascending, of the largest room in the vessel. A room is made of sites that are clear of walls, coil and
 /// bodies as they stand at the start, by `reach` [m], and that are joined by steps to neighbours which

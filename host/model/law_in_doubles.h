@@ -22,7 +22,7 @@ class LawInDoubles {
     /// Asks the law the same as a device that answered these points of a loading. A law that takes long is compared at
     /// its first loadings only. `pair` is the name of the materials.
     void compare(const std::string& pair, const LawLoading& loading, std::span<const LawPoint> points);
-    /// Where the answers differed most; nothing if they never did.
+    /// Where the answers differed most, if they did.
     const std::optional<LawRounding>& worst() const { return worst_; }
 
   private:

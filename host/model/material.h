@@ -49,7 +49,7 @@ static_assert(pairOf(ContactClass::ParticleWall).b == kWallMaterial &&
 /// Rolling lever a_r: Full -> 2 a_i a_j/(a_i + a_j) (wall: 2 a_i); Half -> half of it (Luding's own).
 enum class RollingLever { Full = 0, Half = 1 };
 
-/// The parameters of each pair of materials. Pairs that cannot touch, as two walls, are there and mean nothing.
+/// The parameters of each pair of materials. Entries of pairs that cannot touch, as two walls, are unspecified.
 class PairTable {
   public:
     PairTable() { resize(kUsualMaterials); }

@@ -127,7 +127,7 @@ bool isOfNumber(const std::string& text, std::size_t dot) {
            (behind == text.size() || text[behind] != '.');
 }
 
-/// The first line in whose keys there are more than `most` dots; 0 if there is none. Dots in strings, comments and
+/// The first line in whose keys there are more than `most` dots; 0 without such a line. Dots in strings, comments and
 /// numbers do not count: the text of a law is one long string, a list of sizes one long line of numbers.
 int lineOfManyDots(const std::string& text, int most) {
     int line = 1, dots = 0;

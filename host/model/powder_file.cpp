@@ -142,7 +142,7 @@ PowderSpheres spheresOf(const PowderFile& powder) {
     Section& particles = root.requiredTable("particles");
     PowderSpheres spheres;
     spheres.density = particles.number("density");
-    Case sieves;  // keeps the paths of their files, which are not asked for
+    Told sieves;  // which is not asked for
     spheres.size = readSize(reader, particles.requiredTable("size"), sieves);
     if (root.has("bulk_density") && !root.isString("bulk_density")) spheres.bulkDensity = root.number("bulk_density");
     const Node* scaling = powder.spheres.child("contact")->child("scaling");

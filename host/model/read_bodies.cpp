@@ -22,9 +22,9 @@ void readCompany(const BodyReader& b, RigidBody& body) {
     if (!b.section.isString("moves_with")) return;
     if (b.section.has("motion"))
         return b.fault("moves_with", "stands beside [body.motion], which says another motion", "give one of the two");
-    const auto place = placeOfBody(b.reader, b.section.path("moves_with"), name, b.c);
+    const auto place = placeOfBody(b.reader, b.section.path("moves_with"), name, b.read.bodies);
     if (!place) return;
-    const RigidBody& leader = b.c.world.bodies[*place];
+    const RigidBody& leader = b.read.bodies[*place];
     if (leader.movesFreely())
         return b.fault("moves_with", "names a body that forces move, and these move it alone",
                        "make one body of the two, as one mesh");
@@ -37,10 +37,12 @@ void readCompany(const BodyReader& b, RigidBody& body) {
 
 }  // namespace
 
-void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
+BodiesRead readBodies(CaseReader& reader, Section& root, const std::vector<Material>& materials,
+                      std::optional<double> meshReach) {
+    BodiesRead read;
     std::set<std::string> names;
     for (Section* section : root.tables("body")) {
-        const BodyReader b{reader, *section, meshReach, c};
+        const BodyReader b{reader, *section, meshReach, read};
         RigidBody body;
         body.name = readName(reader, *section, "body", names);
         if (body.name == kCoilName && root.has("coil"))
@@ -56,21 +58,22 @@ void readBodies(CaseReader& reader, Section& root, double meshReach, Case& c) {
             b.fault("contact", "stands beside material, which says the same otherwise", "give one of the two");
         if (section->has("material")) section->know("contact");
         const bool asCoil = !section->has("material") && section->choice("contact") == std::size_t{1};
-        body.material = readMaterialName(reader, *section, c, asCoil ? kCoilMaterial : kWallMaterial);
+        body.material = readMaterialName(reader, *section, materials, asCoil ? kCoilMaterial : kWallMaterial);
         body.course.start = readPlace(b);
         readMotion(reader, *section, body);
         if (section->has("moves_with")) readCompany(b, body);
         section->know("moves_with");
-        c.world.bodies.push_back(std::move(body));
+        read.bodies.push_back(std::move(body));
     }
-    if (c.world.bodies.size() > kMaxBodies)
-        reader.fault("body", fmt::format("there are {}", c.world.bodies.size()),
+    if (read.bodies.size() > kMaxBodies)
+        reader.fault("body", fmt::format("there are {}", read.bodies.size()),
                      fmt::format("give at most {}; one mesh may hold several parts that move together", kMaxBodies));
+    return read;
 }
 
-void alignWithDrive(Case& c) {
-    if (!c.world.coil || geometry::conveyingRate(*c.world.coil, 1.0) > 0) return;
-    for (RigidBody& body : c.world.bodies)
+void alignWithDrive(const std::optional<geometry::Coil>& coil, std::vector<RigidBody>& bodies) {
+    if (!coil || geometry::conveyingRate(*coil, 1.0) > 0) return;
+    for (RigidBody& body : bodies)
         if (auto* turn = std::get_if<geometry::Turn>(&body.course.motion); turn && body.clock == Clock::Drive)
             turn->rate = -turn->rate;
 }

@@ -173,11 +173,13 @@ std::string meansOf(const LawTables& in, const PairSection& pair, const char* ki
     return fmt::format("{} means of {} and {}", kind, name(pair.stated.pair.a), name(pair.stated.pair.b));
 }
 
-void placeContact(CaseReader& reader, Section& root, const Case& c) {
+void placeContact(CaseReader& reader, Section& root, const std::vector<Material>& materials) {
     Section& contact = root.requiredTable("contact");
     contact.table("wall");
     contact.table("coil");
-    if (c.world.materials.size() > std::size_t(kUsualMaterials)) (void)tablesOf(reader, contact, c.world);
+    World world;
+    world.materials = materials;
+    if (materials.size() > std::size_t(kUsualMaterials)) (void)tablesOf(reader, contact, world);
     root.table("settle");
 }
 
@@ -207,7 +209,7 @@ void scaleContacts(const LawTables& in) {
                     in.scale, in.scale * in.scale));
 }
 
-void readContact(CaseReader& reader, Section& root, const MaterialTables& materials, Case& c) {
+void readContact(CaseReader& reader, Section& root, const MaterialTables& tables, Case& c) {
     Section& contact = root.requiredTable("contact");
     const bool user = namesFile(contact, contact.node("law"));
     const Law& law = user ? normalLaw(NormalLaw::User) : *laws()[contact.choice("law").value_or(0)];
@@ -216,7 +218,7 @@ void readContact(CaseReader& reader, Section& root, const MaterialTables& materi
     c.dosingLaw.pairs.resize(int(c.world.materials.size()));
     checkPairTables(reader, contact, c.world);
     const double scale = readScaling(reader, contact, law.kind(), c);
-    const LawTables in{reader, tablesOf(reader, contact, c.world), root.table("settle"), materials, c, scale};
+    const LawTables in{reader, tablesOf(reader, contact, c.world), root.table("settle"), tables, c, scale};
     std::vector<Section*> sections;
     for (const PairSection& p : in.pairs) sections.push_back(p.section);
     if (!user) refuseUserLaw(reader, sections);

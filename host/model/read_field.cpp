@@ -62,12 +62,12 @@ bool finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-void readGrid(CaseReader& reader, Section& section, const Case& c, FieldSensor& sensor) {
+void readGrid(CaseReader& reader, Section& section, const std::optional<Canister>& canister, FieldSensor& sensor) {
     FieldRequest& request = sensor.request;
     std::optional<Vec3> low, high;
     Frame frame{Vec3(0), Vec3(0), Vec3(1)};
-    if (c.canister) {
-        frame = frameOf(sensor.preset, *c.canister, request.width);
+    if (canister) {
+        frame = frameOf(sensor.preset, *canister, request.width);
         low = frame.low;
         high = frame.high;
     } else if (sensor.preset != Preset::None) {
@@ -98,7 +98,10 @@ void checkName(CaseReader& reader, const std::string& path, const std::string& n
 
 }  // namespace
 
-void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c) {
+std::vector<FieldSensor> readFields(CaseReader& reader, Section& root, const std::vector<ListedPowder>& powders,
+                                    const std::optional<Canister>& canister, double sensorInterval,
+                                    std::optional<double> meanDiameter) {
+    std::vector<FieldSensor> fields;
     std::set<std::string> names;
     for (Section* section : root.tables("field")) {
         FieldSensor sensor;
@@ -110,18 +113,19 @@ void readFields(CaseReader& reader, Section& root, double meanDiameter, Case& c)
         if (!section->has("name") || section->isString("name"))
             checkName(reader, section->path("name"), sensor.name, names);
         FieldRequest& request = sensor.request;
-        request.material = readPowderName(reader, *section, c);
+        request.material = readPowderName(reader, *section, powders);
         request.kernel = static_cast<Kernel>(section->choice("kernel").value_or(0));
-        const double width = (request.kernel == Kernel::Lucy ? 2 : 1) * meanDiameter;
+        const double width = (request.kernel == Kernel::Lucy ? 2 : 1) * meanDiameter.value_or(kNaN);
         request.width = section->number("width_mm", std::round(width * 1e9) / 1e6);
         sensor.average = section->boolean("average");
         sensor.stress = request.contactStress = section->boolean("stress");
-        readGrid(reader, *section, c, sensor);
+        readGrid(reader, *section, canister, sensor);
         const bool map = request.grid.resolvedDirections() > 1;
-        sensor.interval = section->number("interval_s", (map ? 10 : 1) * c.sensorInterval);
+        sensor.interval = section->number("interval_s", (map ? 10 : 1) * sensorInterval);
         if (sensor.preset == Preset::HeightProfile) sensor.initialHeight = section->number("initial_height_mm");
-        c.fields.push_back(std::move(sensor));
+        fields.push_back(std::move(sensor));
     }
+    return fields;
 }
 
 }  // namespace vkdose

@@ -1,16 +1,12 @@
-// The tables [[powder]] and [[material]], and the keys that name a powder or a material.
+// The tables [particles] (but for the place where the powder starts), [[powder]] and [[material]].
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "host/core/closest_word.h"
-#include "host/core/printable.h"
 #include "host/model/case_sections.h"
 #include "host/model/named_file.h"
-#include "host/model/particle_list.h"
-#include "host/model/powders.h"
 #include "host/model/read_user_law.h"
 
 namespace vkdose {
@@ -33,22 +29,25 @@ void checkName(CaseReader& reader, Section& section, const char* key, const std:
                      fmt::format("give each {} a name of its own", kind));
 }
 
-std::vector<std::string> namesOf(const World& world) {
-    std::vector<std::string> names;
-    for (const Material& m : world.materials) names.push_back(m.name);
-    return names;
-}
-
-std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
-    const std::string meant = closestWord(name, known);
-    if (!meant.empty()) return fmt::format("did you mean \"{}\"?", meant);
-    std::string all;
-    for (const std::string& k : known) all += (all.empty() ? "" : ", ") + k;
-    return "known: " + all;
+/// The mass, or the height of the vessel that it follows from.
+void readAmount(CaseReader& reader, Section& particles, Filling& filling) {
+    if (!particles.has("fill_height_mm")) {
+        particles.know("fill_height_mm");
+        filling.mass = particles.number("mass_g");
+        return;
+    }
+    filling.height = particles.number("fill_height_mm");
+    particles.forget("fill_height_mm");
+    particles.record("mass_g", 0.0);  // keeps its place in the resolved case; findVessel knows it
+    const std::string path = particles.path("fill_height_mm");
+    if (particles.has("mass_g")) reader.fault(path, "mass_g is given too", "give one of the two");
+    if (!particles.has("inside"))
+        reader.fault(path, "is the height of a vessel, and no vessel is given", "give particles.inside, or mass_g");
+    particles.know("mass_g");
 }
 
 void readPowder(CaseReader& reader, Section& s, std::set<std::string>& names, std::set<std::string>& materials,
-                Case& c) {
+                PowdersRead& p) {
     Powder powder;
     powder.name = s.string("name");
     checkName(reader, s, "name", powder.name, "powder", names);
@@ -59,11 +58,11 @@ void readPowder(CaseReader& reader, Section& s, std::set<std::string>& names, st
         reader.fault(s.path("name"), fmt::format("there is a material \"{}\" already", material),
                      "give the powder a `material` of its own too");
     }
-    powder.material = static_cast<int>(c.world.materials.size());
-    c.world.materials.push_back({material, true, s.has("density") ? s.number("density") : kNaN});
+    powder.material = static_cast<int>(p.materials.size());
+    p.materials.push_back({material, true, s.has("density") ? s.number("density") : kNaN});
     s.know("density");
-    powder.filling.gridGap = c.filling.gridGap;
-    if (c.filling.list) {
+    powder.filling.gridGap = p.filling.gridGap;
+    if (p.filling.list) {
         for (const char* key : {"mass_g", "size"}) {
             s.know(key);
             if (s.has(key))
@@ -72,15 +71,15 @@ void readPowder(CaseReader& reader, Section& s, std::set<std::string>& names, st
         }
     } else {
         powder.filling.mass = s.number("mass_g");
-        powder.filling.size = readSize(reader, s.requiredTable("size"), c);
+        powder.filling.size = readSize(reader, s.requiredTable("size"), p.told);
     }
-    c.furtherPowders.push_back(std::move(powder));
+    p.further.push_back(std::move(powder));
 }
 
 /// Gives the table of a material its index, and takes the density from it.
-void readMaterial(CaseReader& reader, Section& s, std::set<std::string>& names, MaterialTables& tables, Case& c) {
+void readMaterial(CaseReader& reader, Section& s, std::set<std::string>& names, PowdersRead& p) {
     const std::string name = s.string("name");
-    std::vector<Material>& materials = c.world.materials;
+    std::vector<Material>& materials = p.materials;
     const auto found =
         std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
     int index = static_cast<int>(found - materials.begin());
@@ -101,7 +100,7 @@ void readMaterial(CaseReader& reader, Section& s, std::set<std::string>& names, 
         index = static_cast<int>(materials.size()) - 1;
     }
     Material& m = materials[static_cast<std::size_t>(index)];
-    if (!tables.emplace(index, &s).second)
+    if (!p.tables.emplace(index, &s).second)
         reader.fault(s.path("name"), fmt::format("there is a [[material]] \"{}\" already", name),
                      "join the two tables");
     if (m.powder && s.has("density") && !std::isnan(m.density))
@@ -111,101 +110,93 @@ void readMaterial(CaseReader& reader, Section& s, std::set<std::string>& names, 
 }
 
 /// Name of the first powder, and whether the powders start mixed. A case with one powder need not say either.
-void readFirst(CaseReader& reader, Section& root, std::set<std::string>& materials, Case& c) {
+void readFirst(CaseReader& reader, Section& root, std::set<std::string>& materials, PowdersRead& p) {
     Section& s = root.table("particles");
     const bool further = root.has("powder");
     if (further || root.has("material") || s.has("material")) {
-        std::string& name = c.world.materials.front().name;
+        std::string& name = p.materials.front().name;
         name = s.string("material");
         checkName(reader, s, "material", name, "material", materials);
     }
     s.know("material");
-    if (further || s.has("mixed")) c.mixed = s.boolean("mixed");
+    if (further || s.has("mixed")) p.mixed = s.boolean("mixed");
     s.know("mixed");
-    if (c.mixed && !further) reader.fault("particles.mixed", "there is only one powder", "add [[powder]]");
-    if (c.mixed && c.filling.list)
+    if (p.mixed && !further) reader.fault("particles.mixed", "there is only one powder", "add [[powder]]");
+    if (p.mixed && p.filling.list)
         reader.fault("particles.mixed", "a list has its particles where they are", "leave it out");
 }
 
-}  // namespace
-
-MaterialTables readMaterials(CaseReader& reader, Section& root, Case& c) {
+/// [[powder]] and [[material]], which give the materials their indices.
+void readMaterials(CaseReader& reader, Section& root, PowdersRead& p) {
     std::set<std::string> materials{"wall", "coil"};
-    readFirst(reader, root, materials, c);
-    std::set<std::string> names{c.world.materials.front().name};
-    for (Section* s : root.tables("powder")) readPowder(reader, *s, names, materials, c);
-    MaterialTables tables;
-    for (Section* s : root.tables("material")) readMaterial(reader, *s, materials, tables, c);
-    for (std::size_t k = 0; k < c.furtherPowders.size(); ++k) {
-        const Material& m = c.world.materials[static_cast<std::size_t>(c.furtherPowders[k].material)];
+    readFirst(reader, root, materials, p);
+    std::set<std::string> names{p.materials.front().name};
+    for (Section* s : root.tables("powder")) readPowder(reader, *s, names, materials, p);
+    for (Section* s : root.tables("material")) readMaterial(reader, *s, materials, p);
+    for (std::size_t k = 0; k < p.further.size(); ++k) {
+        const Material& m = p.materials[static_cast<std::size_t>(p.further[k].material)];
         const std::string path = fmt::format("powder[{}].density", k);
-        const auto table = tables.find(c.furtherPowders[k].material);
+        const auto table = p.tables.find(p.further[k].material);
         const bool given =
-            root.item("powder", k).has("density") || (table != tables.end() && table->second->has("density"));
+            root.item("powder", k).has("density") || (table != p.tables.end() && table->second->has("density"));
         if (std::isnan(m.density) && !given)
             reader.fault(path, "is missing", fmt::format("give it, or a density in the [[material]] \"{}\"", m.name));
     }
-    if (c.world.materials.size() > std::size_t(kMostMaterials))
+    if (p.materials.size() > std::size_t(kMostMaterials))
         reader.fault(
             root.has("powder") ? "powder" : "material",
             fmt::format("there are {} materials, those of the first powder, of the walls and of the coil among "
                         "them",
-                        c.world.materials.size()),
+                        p.materials.size()),
             fmt::format("give at most {}", kMostMaterials));
-    return tables;
 }
 
-void readList(CaseReader& reader, Section& root, Case& c) {
-    if (!c.filling.list) return;
+/// The file of particles.list, whose powders have names by now.
+void readList(CaseReader& reader, Section& root, PowdersRead& p) {
     Section& section = root.table("particles");
     if (!section.isString("list")) return;  // already reported
     const std::filesystem::path file = reader.folderOf("particles.list") / section.node("list")->string;
     if (!requireFile(reader, "particles.list", file, "give the path of a CSV, relative to the case file")) return;
     std::vector<Diagnostic> faults;
-    std::vector<ListedPowder> powders;
-    for (const PowderOf& p : powdersOf(c)) powders.push_back({p.name, p.material});
-    c.filling.list = readParticleList(file, faults, powders, propertiesOfLaw(reader, root));
-    c.files.push_back(file);
+    p.filling.list = readParticleList(file, faults, p.named(), propertiesOfLaw(reader, root));
+    p.told.files.push_back(file);
     section.record("list", std::filesystem::absolute(file).lexically_normal().string());
     for (Diagnostic& fault : faults) reader.add(std::move(fault));
 }
 
-int readMaterialName(CaseReader& reader, Section& section, const Case& c, int usual) {
-    if (!section.has("material")) {
-        section.know("material");
-        return usual;
+/// [particles], but for names.
+void readParticles(CaseReader& reader, Section& root, PowdersRead& p) {
+    Section& section = root.requiredTable("particles");
+    p.materials.front().density = section.number("density");
+    if (section.has("list")) {
+        if (section.has("mass_g"))
+            reader.fault("particles.mass_g", "a list of particles has its own mass", "give mass_g or list, not both");
+        section.know("mass_g");
+        section.know("fill_height_mm");
+        p.filling.list.emplace();
+        (void)section.string("list");
+        return;
     }
-    const std::string name = section.string("material");
-    if (!section.isString("material")) return usual;
-    const std::vector<std::string> names = namesOf(c.world);
-    const auto found = std::find(names.begin(), names.end(), name);
-    const auto index = static_cast<std::size_t>(found - names.begin());
-    if (found == names.end())
-        reader.fault(section.path("material"), fmt::format("there is no material \"{}\"", printable(name)),
-                     suggestion(name, names) + "; a further one needs a [[material]]");
-    else if (c.world.materials[index].powder)
-        reader.fault(section.path("material"), "is the material of a powder",
-                     "add a [[material]] of another name with the same moduli");
-    else
-        return static_cast<int>(index);
-    return usual;
+    section.know("list");
+    readAmount(reader, section, p.filling);
+    p.filling.gridGap = section.number("grid_gap");
+    p.filling.size = readSize(reader, section.requiredTable("size"), p.told);
 }
 
-std::optional<int> readPowderName(CaseReader& reader, Section& section, const Case& c) {
-    if (!section.has("powder")) {
-        section.know("powder");
-        return {};
-    }
-    const std::string name = section.string("powder");
-    if (!section.isString("powder")) return {};
-    std::vector<std::string> names;
-    for (const PowderOf& p : powdersOf(c)) {
-        if (p.name == name) return p.material;
-        names.push_back(p.name);
-    }
-    reader.fault(section.path("powder"), fmt::format("there is no powder \"{}\"", printable(name)),
-                 suggestion(name, names));
-    return {};
+}  // namespace
+
+std::vector<ListedPowder> PowdersRead::named() const {
+    std::vector<ListedPowder> all{{materials.front().name, kFirstPowder}};
+    for (const Powder& powder : further) all.push_back({powder.name, powder.material});
+    return all;
+}
+
+PowdersRead readPowders(CaseReader& reader, Section& root) {
+    PowdersRead powders;
+    readParticles(reader, root, powders);
+    readMaterials(reader, root, powders);
+    if (powders.filling.list) readList(reader, root, powders);
+    return powders;
 }
 
 }  // namespace vkdose

@@ -16,7 +16,8 @@ using geometry::Rest;
 using geometry::Turn;
 
 /// The bodies that `body` names, the first `most` of them.
-std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size_t most, const Case& c) {
+std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size_t most,
+                                       const std::vector<RigidBody>& bodies) {
     std::vector<std::size_t> places;
     const std::string text = s.string("body");
     if (!s.isString("body")) return places;
@@ -25,7 +26,7 @@ std::vector<std::size_t> readBodyNames(CaseReader& reader, Section& s, std::size
         reader.fault(s.path("body"), fmt::format("names {} bodies", names.size()),
                      most == 1 ? "name one" : "name the lid and what is fixed to it");
     for (const std::string& name : names)
-        if (const auto place = placeOfBody(reader, s.path("body"), name, c)) places.push_back(*place);
+        if (const auto place = placeOfBody(reader, s.path("body"), name, bodies)) places.push_back(*place);
     return places;
 }
 
@@ -102,8 +103,8 @@ bool hasAxis(const geometry::Motion& motion) {
 }
 
 /// A state before the end of the run is that of a frame.
-void requireFrames(CaseReader& reader, Section& s, const char* key, const Case& c) {
-    if (c.frames.interval > 0) return;
+void requireFrames(CaseReader& reader, Section& s, const char* key, const FrameStorage& frames) {
+    if (frames.interval > 0) return;
     reader.fault(s.path(key), "looks at frames, and the run keeps none", "add [frames] with interval_s");
 }
 
@@ -127,7 +128,7 @@ double largestRadius(const RigidBody& drum) {
     return radius > 0 ? radius : geometry::kEndless;
 }
 
-void readFrontView(CaseReader& reader, Section& s, const Case& c, ElementTest& m) {
+void readFrontView(CaseReader& reader, Section& s, const World& world, ElementTest& m) {
     constexpr const char* kWindow = "window_mm";
     if (!readCamera(reader, s, ElementTest::View::Front, m)) {
         s.know(kWindow);
@@ -144,13 +145,14 @@ void readFrontView(CaseReader& reader, Section& s, const Case& c, ElementTest& m
     }
     m.halfWidth = s.number(kWindow);
     for (const std::size_t body : m.bodies)
-        if (const double radius = largestRadius(c.world.bodies[body]); m.halfWidth >= radius)
+        if (const double radius = largestRadius(world.bodies[body]); m.halfWidth >= radius)
             reader.fault(s.path(kWindow),
                          fmt::format("reaches beyond the drum, whose radius is {:.6g} mm", radius * 1e3),
                          "give less: it counts from the axis to either side");
 }
 
-void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementTest& m) {
+void readKind(CaseReader& reader, Section& s, Kind kind, const World& world, const FrameStorage& frames,
+              ElementTest& m) {
     switch (kind) {
         case Kind::AngleOfRepose:
         case Kind::BulkDensity:
@@ -159,29 +161,29 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
             if (kind == Kind::BulkDensity) m.radius = s.number("radius_mm");
             if (s.has("time_s")) {
                 m.time = s.number("time_s");
-                requireFrames(reader, s, "time_s", c);
+                requireFrames(reader, s, "time_s", frames);
             }
             s.know("time_s");
             return;
         case Kind::DrumAngle:
-            m.bodies = readBodyNames(reader, s, 1, c);
+            m.bodies = readBodyNames(reader, s, 1, world.bodies);
             for (const std::size_t body : m.bodies)
-                if (!std::holds_alternative<Turn>(c.world.bodies[body].course.motion))
+                if (!std::holds_alternative<Turn>(world.bodies[body].course.motion))
                     reader.fault(s.path("body"), "does not turn", "name a body with [body.motion] kind = \"turn\"");
-            readFrontView(reader, s, c, m);
+            readFrontView(reader, s, world, m);
             m.windows = readWindows(reader, s, false);
-            requireFrames(reader, s, "from_s", c);
+            requireFrames(reader, s, "from_s", frames);
             return;
         case Kind::Compression:
-            m.bodies = readBodyNames(reader, s, 1, c);
+            m.bodies = readBodyNames(reader, s, 1, world.bodies);
             for (const std::size_t body : m.bodies)
-                if (std::holds_alternative<Rest>(c.world.bodies[body].course.motion))
+                if (std::holds_alternative<Rest>(world.bodies[body].course.motion))
                     reader.fault(s.path("body"), "does not move",
                                  "give the piston a [body.motion], for example kind = \"table\"");
-                else if (c.world.bodies[body].hinge() != nullptr)
+                else if (world.bodies[body].hinge() != nullptr)
                     reader.fault(s.path("body"), "turns on a hinge, and a piston goes along a line",
                                  "give the piston a line: kind = \"free\" with along");
-                else if (c.world.bodies[body].clock != Clock::Time && !c.world.bodies[body].movesFreely())
+                else if (world.bodies[body].clock != Clock::Time && !world.bodies[body].movesFreely())
                     reader.fault(
                         s.path("body"), "does not move by time, so that its way is not known",
                         "let the piston move by from_s and to_s, by the times of a table, or freely under a force");
@@ -190,9 +192,9 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
             m.axis = readDirection(reader, s, "axis");
             return;
         case Kind::Shear:
-            m.bodies = readBodyNames(reader, s, kMaxBodies, c);
+            m.bodies = readBodyNames(reader, s, kMaxBodies, world.bodies);
             for (const std::size_t body : m.bodies)
-                if (!hasAxis(c.world.bodies[body].course.motion))
+                if (!hasAxis(world.bodies[body].course.motion))
                     reader.fault(
                         s.path("body"), "has no axis, so that its load is no pressure and no torque",
                         "let the lid turn, swing, follow a table or move freely along a line, and the base stand");
@@ -205,13 +207,13 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
             readPreShears(reader, s, m);
             return;
         case Kind::Discharge:
-            m.region = readRegionName(reader, s, c);
+            m.region = readRegionName(reader, s, world.regions);
             if (s.has("hole_mm")) m.hole = s.number("hole_mm");
             s.know("hole_mm");
             m.windows = readWindows(reader, s, false);
             return;
         case Kind::Content:
-            m.region = readRegionName(reader, s, c);
+            m.region = readRegionName(reader, s, world.regions);
             m.windows = readWindows(reader, s, false);
             return;
     }
@@ -219,7 +221,9 @@ void readKind(CaseReader& reader, Section& s, Kind kind, const Case& c, ElementT
 
 }  // namespace
 
-void readMeasures(CaseReader& reader, Section& root, Case& c) {
+std::vector<ElementTest> readMeasures(CaseReader& reader, Section& root, const World& world,
+                                      const FrameStorage& frames) {
+    std::vector<ElementTest> measures;
     std::set<std::string> names;
     for (Section* section : root.tables("measure")) {
         const auto kind = section->choice("kind");
@@ -230,12 +234,13 @@ void readMeasures(CaseReader& reader, Section& root, Case& c) {
         ElementTest m;
         m.kind = static_cast<Kind>(*kind);
         m.name = readName(reader, *section, "measure", names, section->node("kind")->string);
-        readKind(reader, *section, m.kind, c, m);
-        c.measures.push_back(std::move(m));
+        readKind(reader, *section, m.kind, world, frames, m);
+        measures.push_back(std::move(m));
     }
-    if (!c.measures.empty() && !(glm::length(c.world.gravity) > 0) && !reader.faulty())
+    if (!measures.empty() && !(glm::length(world.gravity) > 0) && !reader.faulty())
         reader.fault("gravity", "is zero, so that no direction is upright",
                      "give a gravity to a case with a [[measure]]");
+    return measures;
 }
 
 }  // namespace vkdose

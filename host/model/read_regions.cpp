@@ -1,8 +1,6 @@
 // The regions where powder is dosed or counted: [[region]].
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <set>
 
 #include "host/model/case_sections.h"
@@ -11,10 +9,10 @@ namespace vkdose {
 namespace {
 
 /// The body that carries the region.
-void readCarrier(CaseReader& reader, Section& s, const Case& c, CountRegion& region) {
+void readCarrier(CaseReader& reader, Section& s, const std::vector<RigidBody>& bodies, CountRegion& region) {
     const std::string name = s.string("moves_with");
     if (!s.isString("moves_with")) return;
-    region.body = placeOfBody(reader, s.path("moves_with"), name, c);
+    region.body = placeOfBody(reader, s.path("moves_with"), name, bodies);
     if (region.body && region.deletes)
         reader.fault(s.path("moves_with"), "stands in a region that deletes, which rests",
                      "add deletes = false, or leave moves_with out");
@@ -22,7 +20,8 @@ void readCarrier(CaseReader& reader, Section& s, const Case& c, CountRegion& reg
 
 }  // namespace
 
-void readRegions(CaseReader& reader, Section& root, Case& c) {
+std::vector<CountRegion> readRegions(CaseReader& reader, Section& root, const std::vector<RigidBody>& bodies) {
+    std::vector<CountRegion> regions;
     std::set<std::string> names;
     std::size_t outlets = 0;
     for (Section* section : root.tables("region")) {
@@ -32,7 +31,7 @@ void readRegions(CaseReader& reader, Section& root, Case& c) {
         const auto kind = s.choice("kind");
         region.deletes = s.boolean("deletes");
         outlets += region.deletes ? 1 : 0;
-        if (s.has("moves_with")) readCarrier(reader, s, c, region);
+        if (s.has("moves_with")) readCarrier(reader, s, bodies, region);
         s.know("moves_with");
         if (!kind) {
             s.abandon();
@@ -46,16 +45,15 @@ void readRegions(CaseReader& reader, Section& root, Case& c) {
             if (glm::any(glm::lessThanEqual(region.high, region.low)))
                 reader.fault(s.path("high"), "is not beyond low on every axis", "exchange low and high, or enlarge it");
         }
-        c.world.regions.push_back(std::move(region));
+        regions.push_back(std::move(region));
     }
-    if (c.world.regions.size() > kMaxRegions)
-        reader.fault("region", fmt::format("there are {}", c.world.regions.size()),
+    if (regions.size() > kMaxRegions)
+        reader.fault("region", fmt::format("there are {}", regions.size()),
                      fmt::format("give at most {}", kMaxRegions));
     if (outlets > kMaxOutlets)
         reader.fault("region", fmt::format("{} of them delete", outlets),
                      fmt::format("let at most {} delete, and count in the others", kMaxOutlets));
-    // A region that deletes stands in the place of the plane behind the throat.
-    if (outlets > 0) c.world.outletZ = std::numeric_limits<double>::infinity();
+    return regions;
 }
 
 }  // namespace vkdose

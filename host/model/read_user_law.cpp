@@ -19,7 +19,7 @@ namespace {
 /// Longest text of a law. It becomes a part of the case, which may not be much longer.
 constexpr std::size_t kMostBytes = 64U << 10U;
 
-/// What keeps a text from being a part of a case, which is text in UTF-8; nothing if it can be one.
+/// What keeps a text from being a part of a case, which is text in UTF-8. Absent if it can be one.
 std::optional<LawFault> unwritable(const std::string& text) {
     if (text.size() > kMostBytes)
         return LawFault{0, fmt::format("has {} KiB", text.size() >> 10U),

@@ -15,8 +15,8 @@ namespace vkdose {
 /// The law of the file that contact.law names, or of the text that a resolved case holds. Null after a fault.
 std::shared_ptr<const UserLaw> readUserLaw(CaseReader& reader, Section& contact);
 
-/// The names of the properties that the law of the case gives each particle; none if it has no such law, or one at
-/// fault, which readUserLaw tells.
+/// The names of the properties that the law of the case gives each particle. Empty without a user's law, and with one
+/// at fault, which readUserLaw tells.
 std::vector<std::string> propertiesOfLaw(const CaseReader& reader, Section& root);
 
 /// The properties that `section`'s table `properties` gives a material; what it does not state is `usual`, and must be

@@ -55,7 +55,7 @@ double RigidBody::perMass(const Vec3& x, const Vec3& normal) const {
 
 namespace {
 
-/// The line about which a motion turns; null if it turns about none.
+/// The line about which a motion turns. Null for a motion that does not turn.
 struct Line {
     const Vec3 *axis, *through;
 };

@@ -114,7 +114,7 @@ bool movesInPhases(const std::vector<RigidBody>& bodies);
 bool movesInDoses(const std::vector<RigidBody>& bodies);
 /// Whether one of the bodies moves freely.
 bool moveFreely(const std::vector<RigidBody>& bodies);
-/// All bodies at their start; of those that do not move freely it means nothing.
+/// All bodies at their start. Entries of bodies that do not move freely are unspecified.
 std::vector<FreeBody> freeAtStart(const std::vector<RigidBody>& bodies);
 
 /// Most bodies of a world.

@@ -52,12 +52,12 @@ class Section {
     Section& table(std::string_view key);
     /// The same, but a missing table is one fault instead of one for each of its keys.
     Section& requiredTable(std::string_view key);
-    /// The tables of [[key]]; none when the key is absent.
+    /// The tables of [[key]]. Empty without the key.
     std::vector<Section*> tables(std::string_view key);
     /// One of the tables that `tables` gave.
     Section& item(std::string_view key, std::size_t index);
 
-    /// The value as it is in the file, for kinds of values that no getter above reads; null if there is none.
+    /// The value as it is in the file, for kinds of values that no getter above reads. Null without the key.
     const Node* node(std::string_view key);
 
     /// Notes a value that was computed elsewhere (in the unit of the file) for the resolved case.

@@ -52,7 +52,7 @@ std::vector<Probe> probesOf(const Case& c, const PowderSizes& sizes) {
     return probes;
 }
 
-/// What is wrong with an answer; nothing if it will do.
+/// What is wrong with an answer, if it will not do.
 std::optional<std::string> wrongIn(const LawPoint& p, const UserLaw& law) {
     const auto answers = [](const char* function, double value) {
         return fmt::format("{} answers {:.6g}", function, value);
