@@ -162,7 +162,7 @@ class Mender {
         return glm::dot(at(v) - a, along) / glm::dot(along, along);
     }
 
-    /// Cuts triangles at vertices on their edges, each at one edge; false if there is none to cut.
+    /// Cuts triangles at vertices on their edges, each at one edge; false if nothing was to be cut.
     bool cut() {
         const std::vector<std::uint32_t> open = openVertices();
         if (mostCuts_ == 0) mostCuts_ = kCutsForVertex * open.size() + draft_.triangles.size();

@@ -31,7 +31,7 @@ struct TriangleSoup {
     std::vector<std::uint64_t> places;                    ///< of each triangle in the file: its line or byte
     bool placesAreLines = true;
     double metresPerUnit = 1;  ///< of the file's lengths
-    std::string passedOver;    ///< what of the file means nothing and yet should not be there; empty: nothing
+    std::string passedOver;    ///< bytes of the file that say nothing and should not be there; empty without them
 
     /// "part.stl:12" or "part.stl: byte 134", where triangle `t` stands.
     std::string place(std::size_t t) const;

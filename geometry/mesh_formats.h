@@ -50,7 +50,7 @@ class TextLines {
     std::uint64_t line_ = 0, next_;
 };
 
-/// The whole word as a number (locale-free, "+1" allowed); nothing if it is none or lies outside of double precision.
+/// The whole word as a number (locale-free, "+1" allowed), if it is one within double precision.
 /// "nan" and "inf" are numbers.
 std::optional<double> number(std::string_view word);
 std::optional<std::int64_t> integer(std::string_view word);

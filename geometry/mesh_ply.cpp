@@ -27,7 +27,7 @@ constexpr Type kTypes[] = {{"char", 1, 'i'},  {"uchar", 1, 'u'},  {"short", 2, '
 
 struct Property {
     std::string name;
-    const Type* count = nullptr;  ///< of a list; none if the property is a single value
+    const Type* count = nullptr;  ///< of a list; null for a single value
     const Type* value = nullptr;
 };
 
@@ -38,7 +38,7 @@ struct Element {
     std::vector<Property> properties;
     std::unordered_map<std::string, int> places = {};  ///< of the properties, by name
 
-    /// Index of a property; -1 if there is none of the name.
+    /// Index of the property of that name, or -1.
     int find(const std::string& property) const {
         const auto found = places.find(property);
         return found == places.end() ? -1 : found->second;

@@ -137,7 +137,7 @@ inline constexpr double kAtStop = 1e-7;
 
 using Motion = std::variant<Rest, Turn, Swing, Shake, Slide, Table, Free, Hinge>;
 
-/// The time after which a motion repeats itself [s]; none if it does not. A table does not.
+/// The time after which a motion repeats itself [s]. Absent for a table, and for what never comes back.
 std::optional<double> periodOf(const Motion& motion);
 
 /// When a motion goes on: in intervals [from, to) of the run's time [s], in order and apart. Outside of them the body

@@ -52,7 +52,7 @@ struct Cycles : SteadySeries {
     std::string what;             ///< of CycleRule
     std::vector<CycleMass> list;  ///< in order; empty if the sensors cannot tell the mass of one
 
-    /// When the steady part begins [s]; NaN if there is none.
+    /// When the steady part begins [s]; NaN without one.
     double steadyTime() const;
 };
 

@@ -19,7 +19,7 @@ struct Axis {
 
     double at(std::size_t i) const { return low + (static_cast<double>(i) + 0.5) * step; }
 
-    /// The first point at or beyond x; `count` if there is none.
+    /// The first point at or beyond x; `count` if all lie before it.
     std::size_t from(double x) const {
         const double i = std::ceil((x - low) / step - 0.5);
         return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(count)));

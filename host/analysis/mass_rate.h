@@ -36,7 +36,7 @@ struct MassRate : SteadySeries {
     double window = std::numeric_limits<double>::quiet_NaN();  ///< length of one [s]; NaN if nothing turned
     std::vector<RateWindow> windows;                           ///< in order; the last lacks a hundredth at most
 
-    /// When the steady part begins [s]; NaN if there is none.
+    /// When the steady part begins [s]; NaN without one.
     double steadyTime() const;
 };
 

@@ -50,7 +50,7 @@ struct NamedFigure {
     double (*of)(const Of&) = nullptr;  ///< NaN where there is none
     const char* error = nullptr;        ///< the name of its standard error, if it has one
 };
-/// The one that a target names by the kind and itself, as "rate.steady_kg_s"; null if there is none.
+/// The one that a target names by the kind and itself, as "rate.steady_kg_s"; null for other targets.
 template <class Of>
 const NamedFigure<Of>* figureNamed(std::span<const NamedFigure<Of>> figures, const char* kind,
                                    const std::string& target) {

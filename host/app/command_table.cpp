@@ -17,7 +17,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// The words of "free|easy|cohesive"; none of "DIR|STUDY", which are kinds of things.
+/// The words of "free|easy|cohesive". Empty for "DIR|STUDY", which are kinds of things.
 std::vector<std::string> wordsIn(const std::string& value) {
     const bool words = value.find('|') != std::string::npos &&
                        std::all_of(value.begin(), value.end(), [](char c) { return c == '|' || std::islower(c) != 0; });

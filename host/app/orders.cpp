@@ -52,7 +52,7 @@ std::vector<Orders::Refused> Orders::hear() {
     return refused;
 }
 
-/// Why an order is refused; nothing if it is obeyed.
+/// Why an order is refused, if it is.
 std::optional<std::string> Orders::obey(const std::string& line) {
     const std::size_t first = line.find_first_not_of(" \t"), last = line.find_last_not_of(" \t\r");
     const std::size_t gap = std::min(line.find_first_of(" \t", first), last + 1);

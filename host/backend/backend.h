@@ -125,8 +125,8 @@ class Backend {
     /// that is stored for them is that of half a step earlier (velocityOfRest).
     virtual void addParticles(std::size_t first, const std::vector<Vec3>& positions) = 0;
 
-    /// Sets the clocks of those of the world's bodies that move in phases; of the others they mean nothing. `advance`
-    /// counts them on. After a load they stand at 0.
+    /// Sets the clocks of the world's bodies, which `advance` counts on. Those of bodies that do not move in phases are
+    /// not read. After a load they stand at 0.
     virtual void setClocks(const std::vector<BodyClock>& clocks) = 0;
 
     /// Advance `steps` steps with the coil turning at `coilRate` [rad/s about +z]. Throws RunError on a lost particle,
@@ -149,7 +149,7 @@ class Backend {
     virtual void restore(const Record& record) = 0;
 
     virtual Particles particles() const = 0;
-    /// Of each of the world's bodies where it is and how it moves, if it moves freely; of the others it means nothing.
+    /// Where each of the world's bodies is and how it moves. Entries of bodies that do not move freely are unspecified.
     /// Empty if none does.
     virtual std::vector<FreeBody> freeBodies() const { return {}; }
     virtual std::vector<Contact> contacts() const = 0;

@@ -25,7 +25,7 @@ class CsvLines {
   public:
     explicit CsvLines(std::istream& stream) : stream_(stream) {}
 
-    /// On to the next line that is not blank; false if there is none.
+    /// On to the next line that is not blank; false at the end.
     bool next();
 
     int number() const { return number_; }             ///< of the line, from 1

@@ -55,13 +55,13 @@ std::string readFault(const std::filesystem::path& file);
 /// The same with its name: "there is no file NAME", ...
 std::string unreadable(const std::filesystem::path& file);
 
-/// The bytes of a file; nothing if it is not there, or no file. Throws ReadError if it cannot be read to its end.
+/// The bytes of a file, if it is there and a file. Throws ReadError if it cannot be read to its end.
 std::optional<std::string> fileContent(const std::filesystem::path& file);
 /// The same of its first bytes, at most `most`, and of its last ones.
 std::optional<std::string> fileStart(const std::filesystem::path& file, std::uint64_t most);
 std::optional<std::string> fileEnd(const std::filesystem::path& file, std::uint64_t most);
 
-/// What a folder holds, in no order; nothing if there is no folder. Throws ReadError if it cannot be listed.
+/// What a folder holds, in no order. Absent without the folder. Throws ReadError if it cannot be listed.
 std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder);
 
 /// Opens a file to write, with the flags of open(2). It never waits: a pipe that no one reads is refused. A disk is

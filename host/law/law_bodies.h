@@ -22,7 +22,7 @@ class LawBodies : protected LawCursor {
 
     using LawCursor::LawCursor;
 
-    /// The whole number that a token stands for; none if it is no number of GLSL or no constant of the type int.
+    /// The whole number that a token stands for, if it is a number of GLSL or a constant of the type int.
     std::optional<long> integer(const LawToken& t) const;
     /// A bound of a loop must stay what it is.
     void refuseShadow(const LawToken& t) const;

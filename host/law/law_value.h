@@ -21,7 +21,7 @@ struct LawType {
     friend bool operator==(const LawType&, const LawType&) = default;
 };
 
-/// The type of this name ("vec3", "Contact"); float if there is none.
+/// The type of this name ("vec3", "Contact"); float for a name of no type.
 LawType lawTypeOf(std::string_view name);
 
 struct LawValue {

@@ -17,39 +17,17 @@ namespace vkdose {
 namespace {
 
 const std::vector<std::string> kRequired{"force", "stiffness"};
-/// Names that columns of particles have in tables and frames.
-const std::vector<std::string> kTaken{"id",
-                                      "x",
-                                      "y",
-                                      "z",
-                                      "r",
-                                      "powder",
-                                      "status",
-                                      "radius",
-                                      "force",
-                                      "spin",
-                                      "velocity",
-                                      "overlap",
-                                      "kinetic_energy",
-                                      "member",
-                                      "material",
-                                      "vx",
-                                      "vy",
-                                      "vz",
-                                      "wx",
-                                      "wy",
-                                      "wz",
-                                      "x_m",
-                                      "y_m",
-                                      "z_m",
-                                      "radius_m",
-                                      "vx_m_s",
-                                      "vy_m_s",
-                                      "vz_m_s",
-                                      "wx_rad_s",
-                                      "wy_rad_s",
-                                      "wz_rad_s",
-                                      "periods_gone"};
+/// Names that particles and fields have in tables, lists and frames, and colours of pictures.
+constexpr std::string_view kTaken =
+    " id x y z r powder status radius force spin velocity overlap kinetic_energy member material speed vx vy vz wx wy "
+    "wz "
+    "x_m y_m z_m radius_m vx_m_s vy_m_s vz_m_s wx_rad_s wy_rad_s wz_rad_s periods_gone time time_s phase dose file "
+    "density density_kg_m3 volume_fraction momentum momentum_x_kg_m2_s momentum_y_kg_m2_s momentum_z_kg_m2_s "
+    "velocity_x_m_s velocity_y_m_s velocity_z_m_s coordination granular_temperature granular_temperature_m2_s2 "
+    "kinetic_stress kinetic_stress_xx_Pa kinetic_stress_yy_Pa kinetic_stress_zz_Pa kinetic_stress_yz_Pa "
+    "kinetic_stress_zx_Pa kinetic_stress_xy_Pa contact_stress contact_stress_xx_Pa contact_stress_xy_Pa "
+    "contact_stress_xz_Pa contact_stress_yx_Pa contact_stress_yy_Pa contact_stress_yz_Pa contact_stress_zx_Pa "
+    "contact_stress_zy_Pa contact_stress_zz_Pa ";
 const std::vector<std::string> kAnswers{"force", "stiffness", "damping", "pull", "energy", "reach"};
 
 /// Reads the tokens of a law from the first to the last.
@@ -119,7 +97,7 @@ class Parser : private LawBodies {
             const std::size_t begin = at_;
             readNames(law_.properties, "particle property", kMostLawProperties);
             for (std::size_t k = begin; k < at_; ++k)
-                if (std::ranges::find(kTaken, tokens_[k].text) != kTaken.end())
+                if (kTaken.find(" " + tokens_[k].text + " ") != std::string_view::npos)
                     refuseLaw(tokens_[k], fmt::format("particles have a {} already", tokens_[k].text),
                               "choose another name");
             return;

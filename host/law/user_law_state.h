@@ -8,7 +8,7 @@
 
 namespace vkdose {
 
-/// Notes in a state under which user's law it came about; nothing without one.
+/// Notes in a state under which user's law it came about, if it did under one.
 void putLaw(const std::shared_ptr<const UserLaw>& law, Record& record);
 /// Throws RecordError if the state came about under another law: its memory means something else.
 void requireLaw(const std::shared_ptr<const UserLaw>& law, const Record& record);

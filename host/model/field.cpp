@@ -58,11 +58,18 @@ double FieldPoint::coordination() const {
     return number > 0 ? touches / number : kNaN;
 }
 
+double FieldPoint::property(std::size_t k) const {
+    return density > 0 ? properties[k] / density : kNaN;
+}
+
 std::array<double, FieldPoint::kNumbers> FieldPoint::numbers() const {
     const std::array<Vec3, 3>& c = contactStress;
     const std::array<double, 6>& k = kineticStress;
-    return {density, momentum.x, momentum.y, momentum.z, number, touches, k[0],   k[1],   k[2],   k[3],  k[4],
-            k[5],    c[0].x,     c[0].y,     c[0].z,     c[1].x, c[1].y,  c[1].z, c[2].x, c[2].y, c[2].z};
+    std::array<double, kNumbers> all{density, momentum.x, momentum.y, momentum.z, number, touches, k[0],
+                                     k[1],    k[2],       k[3],       k[4],       k[5],   c[0].x,  c[0].y,
+                                     c[0].z,  c[1].x,     c[1].y,     c[1].z,     c[2].x, c[2].y,  c[2].z};
+    std::copy(properties.begin(), properties.end(), all.end() - std::ptrdiff_t(properties.size()));
+    return all;
 }
 
 FieldPoint FieldPoint::of(const double* n) {
@@ -74,6 +81,7 @@ FieldPoint FieldPoint::of(const double* n) {
     std::copy_n(n + 6, 6, p.kineticStress.begin());
     for (std::size_t row = 0; row < 3; ++row)
         p.contactStress[row] = Vec3(n[12 + 3 * row], n[13 + 3 * row], n[14 + 3 * row]);
+    std::copy_n(n + kNumbers - kMostLawProperties, kMostLawProperties, p.properties.begin());
     return p;
 }
 

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "host/core/vec.h"
+#include "host/law/user_law.h"
 
 namespace vkdose {
 
@@ -82,13 +83,17 @@ struct FieldPoint {
     /// centre of the other particle, or from the wall, to the particle on which f acts. Pressure is positive. Zero if
     /// the contact stress was not asked for.
     std::array<Vec3, 3> contactStress{Vec3(0), Vec3(0), Vec3(0)};
+    /// Each of the properties that a user's law gives particles, times their density of mass [unit kg/m3]. Zero without
+    /// properties.
+    std::array<double, kMostLawProperties> properties{};
 
-    Vec3 velocity() const;        ///< V = momentum / density [m/s]; NaN where there is no mass
-    double temperature() const;   ///< granular: a third of v'.v' weighed with the mass [m2/s2]; NaN likewise
-    double coordination() const;  ///< neighbours that touch a particle, mean [-]; NaN likewise
+    Vec3 velocity() const;                 ///< V = momentum / density [m/s]; NaN where there is no mass
+    double temperature() const;            ///< granular: a third of v'.v' weighed with the mass [m2/s2]; NaN likewise
+    double coordination() const;           ///< neighbours that touch a particle, mean [-]; NaN likewise
+    double property(std::size_t k) const;  ///< mean over the mass [unit]; NaN likewise
 
     /// The fields of a point as a list of numbers, for sums, records and files.
-    static constexpr std::size_t kNumbers = 21;
+    static constexpr std::size_t kNumbers = 21 + kMostLawProperties;
     std::array<double, kNumbers> numbers() const;
     static FieldPoint of(const double* numbers);
 };

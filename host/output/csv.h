@@ -14,7 +14,7 @@ namespace vkdose {
 /// Length and checksum of a file when it was stored.
 struct CsvMark {
     std::uint64_t bytes = 0;
-    std::optional<std::uint32_t> checksum = std::nullopt;  ///< CRC-32 of them; none if it was not noted
+    std::optional<std::uint32_t> checksum = std::nullopt;  ///< CRC-32 of them, if it was noted
 };
 
 class CsvFile {

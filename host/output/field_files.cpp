@@ -54,10 +54,6 @@ std::string placeNames(const FieldGrid& grid) {
     return text;
 }
 
-std::string quantityNames(const FieldSensor& s) {
-    return "," + csvHeader(kQuantityColumns) + (s.stress ? "," + csvHeader(kStressColumns) : "");
-}
-
 /// Density of the particles of each field, of which its volume fraction is [kg/m3].
 std::vector<double> solidDensities(const Case& c) {
     std::vector<double> densities;
@@ -68,25 +64,33 @@ std::vector<double> solidDensities(const Case& c) {
 }  // namespace
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c)
-    : folder_(run / kFieldsFolder), sensors_(c.fields), densities_(solidDensities(c)) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), densities_(solidDensities(c)), properties_(c.world.properties) {
     if (sensors_.empty()) return;
     createFolder(folder_);
     for (const FieldSensor& s : sensors_) files_.emplace_back(folder_ / (s.name + ".csv"), header(s));
 }
 
 FieldFiles::FieldFiles(const fs::path& run, const Case& c, const std::vector<CsvMark>& marks)
-    : folder_(run / kFieldsFolder), sensors_(c.fields), densities_(solidDensities(c)) {
+    : folder_(run / kFieldsFolder), sensors_(c.fields), densities_(solidDensities(c)), properties_(c.world.properties) {
     if (marks.size() != sensors_.size()) throw OutputError("the checkpoint has another number of fields than the case");
     for (std::size_t k = 0; k < sensors_.size(); ++k)
         files_.emplace_back(folder_ / (sensors_[k].name + ".csv"), marks[k]);
 }
 
-std::string FieldFiles::quantities(const FieldSensor& s, const FieldPoint& p) const {
-    const FieldRow row{Vec3(0), p, densities_[std::size_t(&s - sensors_.data())]};
-    return "," + csvRow(kQuantityColumns, row) + (s.stress ? "," + csvRow(kStressColumns, row) : "");
+std::string FieldFiles::quantityNames(const FieldSensor& s) const {
+    std::string names = "," + csvHeader(kQuantityColumns) + (s.stress ? "," + csvHeader(kStressColumns) : "");
+    for (const std::string& property : properties_) names += "," + property;
+    return names;
 }
 
-std::string FieldFiles::header(const FieldSensor& s) {
+std::string FieldFiles::quantities(const FieldSensor& s, const FieldPoint& p) const {
+    const FieldRow row{Vec3(0), p, densities_[std::size_t(&s - sensors_.data())]};
+    std::string line = "," + csvRow(kQuantityColumns, row) + (s.stress ? "," + csvRow(kStressColumns, row) : "");
+    for (std::size_t k = 0; k < properties_.size(); ++k) line += "," + cellText(p.property(k), 9);
+    return line;
+}
+
+std::string FieldFiles::header(const FieldSensor& s) const {
     const std::string when = csvHeader(kFieldWhenColumns);
     if (isMap(s)) return when + ",file";
     if (!isProfile(s)) return when + placeNames(s.request.grid) + quantityNames(s);
@@ -145,6 +149,8 @@ std::string FieldFiles::image(const FieldSensor& s, const FieldSample& f) const 
         [&](const FieldPoint& p) { return One{p.density / densities_[std::size_t(&s - sensors_.data())]}; });
     add("momentum", "kg/m2/s", 3, [&](const FieldPoint& p) { return three(p.momentum); });
     add("velocity", "m/s", 3, [&](const FieldPoint& p) { return three(p.velocity()); });
+    for (std::size_t k = 0; k < properties_.size(); ++k)
+        add(properties_[k].c_str(), "", 1, [k](const FieldPoint& p) { return One{p.property(k)}; });
     if (s.stress) {
         add("coordination", "", 1, [](const FieldPoint& p) { return One{p.coordination()}; });
         add("granular_temperature", "m2/s2", 1, [](const FieldPoint& p) { return One{p.temperature()}; });

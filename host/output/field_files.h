@@ -31,7 +31,8 @@ class FieldFiles {
     std::vector<CsvMark> store();
 
   private:
-    static std::string header(const FieldSensor& s);
+    std::string header(const FieldSensor& s) const;
+    std::string quantityNames(const FieldSensor& s) const;
     std::string quantities(const FieldSensor& s, const FieldPoint& p) const;
     void writeMap(const FieldSensor& s, const FieldSample& f, const std::string& name) const;
     void writeSeriesOf(const FieldSensor& s) const;
@@ -39,7 +40,8 @@ class FieldFiles {
 
     std::filesystem::path folder_;
     std::vector<FieldSensor> sensors_;
-    std::vector<double> densities_;  ///< of the particles, for each field [kg/m3]
+    std::vector<double> densities_;        ///< of the particles, for each field [kg/m3]
+    std::vector<std::string> properties_;  ///< World::properties
     std::vector<CsvFile> files_;
 };
 

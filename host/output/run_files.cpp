@@ -54,7 +54,7 @@ bool isField(const std::string& file, const std::set<std::string>& fields) {
     return false;
 }
 
-/// Names of the fields in the folder's case; none if that cannot be read.
+/// Names of the fields in the folder's case. Empty if that cannot be read.
 std::set<std::string> fieldsIn(const fs::path& folder) {
     std::set<std::string> names;
     try {

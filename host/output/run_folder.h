@@ -60,7 +60,7 @@ class RunFolder : public RunObserver {
 
     const std::filesystem::path& path() const { return folder_; }
 
-    /// Simulated time of the checkpoint in the folder [s]; none if there is none.
+    /// Simulated time of the checkpoint in the folder [s], if it has one.
     std::optional<double> checkpointTime() const { return checkpointTime_; }
 
   private:

@@ -27,7 +27,7 @@ struct DoseArch {
 /// None without a coil in a canister. Throws OutputError if a frame cannot be read.
 std::vector<DoseArch> archesAtDoseEnds(const Frames& frames, const Case& c, const std::vector<Dose>& doses);
 
-/// The lines of the time series in this folder; none if there is none.
+/// The lines of the time series in this folder. Empty without a time series.
 std::vector<FlowSample> flowIn(const std::filesystem::path& folder);
 
 struct RunHistory {

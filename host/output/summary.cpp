@@ -120,7 +120,7 @@ Json ledger(const RunResult& r) {
     return j;
 }
 
-/// Of each refill of the case when it was added; null if it was not.
+/// When each refill of the case was added; null for one that was not.
 Json refills(const Case& c, const RunResult& r) {
     Json list = Json::array();
     for (std::size_t k = 0; k < c.refills.size(); ++k) {

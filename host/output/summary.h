@@ -14,7 +14,7 @@ namespace vkdose {
 std::string summaryJson(const Case& c, const RunResult& result, const std::string& backend,
                         const RunHistory& history = {});
 
-/// The summary in a run's output folder; nothing if there is none, or it is not whole.
+/// The summary in a run's output folder, if it is there and whole.
 std::optional<nlohmann::ordered_json> readSummary(const std::filesystem::path& folder);
 
 }  // namespace vkdose

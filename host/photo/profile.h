@@ -25,7 +25,7 @@ struct Reading {
 
 struct SurfacePoint {
     double zMm = 0;                  ///< along the coil from the rear wall
-    std::optional<double> heightMm;  ///< over the canister's lowest point; none where there is no surface
+    std::optional<double> heightMm;  ///< over the canister's lowest point, where there is a surface
 };
 
 /// The surface, from the rear wall on, and how it was found.
@@ -39,7 +39,7 @@ struct Surface {
     int columnsCut = 0;    ///< where the bed reaches the region's upper edge, so that its height is not known
 };
 
-/// Row of the highest 1 in every column, from the top; none where there is none.
+/// Row of the highest 1 in every column, from the top. Absent in columns without a 1.
 std::vector<std::optional<int>> upperEdge(const Mask& mask);
 
 /// Finds the surface. A height is off by up to half a pixel, and by the blur of the picture. Throws PhotoError if the

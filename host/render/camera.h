@@ -14,7 +14,7 @@ namespace vkdose::render {
 /// All but Iso are true to scale.
 enum class View { Side, End, Iso, Cut, CutEnd };
 
-/// "side" ...; none if there is no such view.
+/// "side" ..., if there is such a view.
 std::optional<View> viewNamed(std::string_view name);
 
 /// The part of the scene beyond the plane along its normal is taken away.

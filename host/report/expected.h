@@ -22,7 +22,7 @@ struct Point {
     std::map<std::string, Setting> keys;
     struct Output {
         double mean;
-        double standardError;  ///< NaN if there is none
+        double standardError;  ///< NaN if it is not known
     };
     std::map<std::string, Output> outputs;
     std::vector<double> cumulative;  ///< mean over the seeds after dose 1, 2, ... [kg]

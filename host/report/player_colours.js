@@ -33,7 +33,16 @@ function quantities(player, frames) {
      entry: (f, i) => (flat ? kRampSize / 2 : rampEntry(radius(frames.radius[i])))},
     layers(player, frames),
     ...(player.powders.length > 1 ? [powders(player, frames)] : []),
+    ...player.properties.map((property, k) => ownQuantity(property, frames.properties[k], n)),
   ];
+}
+
+/// A number that a user's law gives each particle, on one scale for all frames.
+function ownQuantity(property, levels, n) {
+  const low = d3.min(property.low), high = d3.max(property.high), span = high - low;
+  const value = (f, level) => property.low[f] + (property.high[f] - property.low[f]) * level / 255;
+  return {name: property.name, unit: "", scale: d3.scale.linear().domain(span > 0 ? [low, high] : [low - 0.5, low + 0.5]),
+          entry: (f, i) => (span > 0 ? rampEntry((value(f, levels[f * n + i]) - low) / span) : kRampSize / 2)};
 }
 
 /// A step of the scale for each powder, numbered in the order of the case.

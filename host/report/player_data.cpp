@@ -9,7 +9,10 @@
 #include "host/analysis/free_surface.h"
 #include "host/analysis/overlap.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/core/json.h"
+#include "host/law/user_law.h"
+#include "host/model/case_tree.h"
 #include "host/model/powders.h"
 #include "host/report/deflate.h"
 #include "host/report/player_bodies.h"
@@ -27,6 +30,10 @@ constexpr std::uint16_t kNever = 65'535;
 std::uint16_t sixteenBits(double value, double low, double high) {
     const double part = high > low ? (value - low) / (high - low) : 0;
     return static_cast<std::uint16_t>(std::lround(std::clamp(part, 0.0, 1.0) * 65'535));
+}
+
+std::uint8_t eightBits(double value, double low, double high) {
+    return static_cast<std::uint8_t>(sixteenBits(value, low, high) / 257.0 + 0.5);
 }
 
 std::uint8_t speedLevel(double speed) {
@@ -75,6 +82,11 @@ class Row {
     std::vector<Value> before_, now_;
 };
 
+/// The least and largest value of a property, frame by frame.
+struct PropertyRange {
+    std::vector<double> low, high;
+};
+
 /// The stream of one choice of frames.
 class Encoder {
   public:
@@ -85,6 +97,8 @@ class Encoder {
           place_(3, Row<std::uint16_t>(particles)),
           speed_(particles),
           overlap_(particles),
+          properties_(c.world.properties.size(), Row<std::uint8_t>(particles)),
+          ranges_(properties_.size()),
           surface_(columns),
           columns_(columns) {}
 
@@ -102,6 +116,7 @@ class Encoder {
 
     std::size_t characters() const { return stream_.size() / 3 * 4; }
     const std::vector<double>& radiusRange() const { return radiusRange_; }
+    const std::vector<PropertyRange>& propertyRanges() const { return ranges_; }
 
     std::string finish() {
         addPlanes(stream_, came_);
@@ -139,6 +154,21 @@ class Encoder {
         for (auto& row : place_) row.add(stream_);
         speed_.add(stream_);
         overlap_.add(stream_);
+        for (std::size_t k = 0; k < properties_.size(); ++k) addProperty(p, k);
+    }
+
+    void addProperty(const Particles& p, std::size_t k) {
+        double low = kInfinity, high = -kInfinity;
+        for (const LawProperties& own : p.properties) {
+            low = std::min(low, own[k]);
+            high = std::max(high, own[k]);
+        }
+        if (!(low <= high)) low = high = 0;  // a frame of a run without them
+        for (std::size_t i = 0; i < p.properties.size(); ++i)
+            properties_[k].set(i, eightBits(p.properties[i][k], low, high));
+        properties_[k].add(stream_);
+        ranges_[k].low.push_back(low);
+        ranges_[k].high.push_back(high);
     }
 
     void addSurface(const Particles& p) {
@@ -155,9 +185,20 @@ class Encoder {
     std::vector<std::uint16_t> came_, gone_;
     std::vector<Row<std::uint16_t>> place_;
     Row<std::uint8_t> speed_, overlap_;
+    std::vector<Row<std::uint8_t>> properties_;
+    std::vector<PropertyRange> ranges_;
     Row<std::uint16_t> surface_;
     std::size_t columns_, frames_ = 0;
 };
+
+Json propertiesJson(const Case& c, const std::vector<PropertyRange>& ranges) {
+    Json all = Json::array();
+    for (std::size_t k = 0; k < ranges.size(); ++k)
+        all.push_back({{"name", c.world.properties[k]},
+                       {"low", jsonNumbers(ranges[k].low)},
+                       {"high", jsonNumbers(ranges[k].high)}});
+    return all;
+}
 
 Json vectorJson(const Vec3& v) {
     return {jsonNumber(v.x), jsonNumber(v.y), jsonNumber(v.z)};
@@ -207,6 +248,16 @@ Json framesJson(const std::vector<FrameEntry>& entries) {
     return j;
 }
 
+/// The names of the properties that the law of the folder's case gives particles. Empty if the case cannot be read.
+std::vector<std::string> propertiesIn(const std::filesystem::path& run) try {
+    const Node tree = readTreeText(fileContent(run / "case.toml").value_or(""), "case.toml");
+    const Node* contact = tree.child("contact");
+    const Node* text = contact != nullptr ? contact->child("law_text") : nullptr;
+    return text != nullptr ? readLaw("law", text->string).law.properties : std::vector<std::string>();
+} catch (const CaseError&) {
+    return {};
+}
+
 /// The frame of an entry without its powder.
 Frame placesOf(const FrameEntry& entry, const Frame& frame) {
     Frame places;
@@ -219,7 +270,7 @@ Frame placesOf(const FrameEntry& entry, const Frame& frame) {
 }  // namespace
 
 FrameSource framesOf(const std::filesystem::path& run) {
-    const auto frames = std::make_shared<Frames>(run);
+    const auto frames = std::make_shared<Frames>(run, propertiesIn(run));
     return {frames->entries(), [frames](const FrameEntry& entry) { return frames->read(entry); }};
 }
 
@@ -249,6 +300,7 @@ Json playerJson(const Case& c, const FrameSource& frames, std::size_t columns, s
             j["particles"] = particles;
             j["columns"] = columns;
             j["radius_m"] = jsonNumbers(encoder.radiusRange());
+            j["properties"] = propertiesJson(c, encoder.propertyRanges());
             j["frames"] = framesJson(entries);
             j["bodies"] = bodiesJson(c, places, settled);
             j["stored"] = frames.entries.size();

@@ -1,7 +1,7 @@
 // The frames of a run out of the page; how they are packed stands in host/report/player_data.h.
 
 /// Resolves to {count, particles, radius [m], powder (its number), here (whether a particle is in a frame), position (three of 65535 parts of
-/// the box for each particle and frame), speed, overlap (levels), surface (of 65535 parts of the box's height)}.
+/// the box for each particle and frame), speed, overlap (levels), properties (a list of levels), surface (of 65535 parts of the box's height)}.
 async function readFrames(player) {
   const bytes = await inflated(player.stream);
   player.stream = null;
@@ -20,6 +20,7 @@ function unpackFrames(player, bytes) {
   const frames = {
     count, particles: n, position: new Uint16Array(3 * n * count), speed: new Uint8Array(n * count),
     overlap: new Uint8Array(n * count), surface: new Uint16Array(k * count),
+    properties: player.properties.map(() => new Uint8Array(n * count)),
   };
   // Adds the differences to the values of the frame before. The width of the arrays makes the sums modulo 2^16 or 2^8.
   const add = (into, first, step, before, changes) => {
@@ -37,6 +38,7 @@ function unpackFrames(player, bytes) {
       add(frames.position, 3 * n * f + axis, 3, f > 0 ? before(3 * n) + axis : -1, signed(words(n)));
     add(frames.speed, n * f, 1, before(n), levels());
     add(frames.overlap, n * f, 1, before(n), levels());
+    for (const property of frames.properties) add(property, n * f, 1, before(n), levels());
     if (k > 0) add(frames.surface, k * f, 1, before(k), signed(words(k)));
   }
   const came = words(n), gone = words(n);  // first frame with the particle, first without it again

@@ -155,7 +155,7 @@ Json rotations(const Table& series) {
     return list;
 }
 
-/// The summary. Null if there is none, or if it is that of an interruption after which the run went on.
+/// The summary. Null without one, and for that of an interruption after which the run went on.
 Json summaryOf(const fs::path& folder, const Table& series) {
     const fs::path file = folder / "summary.json";
     if (!fs::exists(file)) return nullptr;

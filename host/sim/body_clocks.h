@@ -22,7 +22,7 @@ class BodyClocks {
     void enter(Phase phase, int dose);
     void count(std::uint64_t steps) { advanceClocks(clocks_, steps); }
 
-    /// Of all bodies in their order; none if no body moves in phases.
+    /// Of all bodies in their order. Empty if no body moves in phases.
     const std::vector<BodyClock>& now() const { return clocks_; }
     /// The same in time [s].
     std::vector<double> times() const;

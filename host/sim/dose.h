@@ -58,7 +58,7 @@ struct Dose {
 
     std::vector<RegionCount> regions;  ///< into each of the world's regions; not kept in a checkpoint
     std::vector<BodySample> bodies;    ///< of each of allBodies, as kDoseBodyColumns tell
-    std::vector<PowderDose> powders;   ///< of each powder; none if there is one; not kept in a checkpoint
+    std::vector<PowderDose> powders;   ///< of each powder; empty with a single one; not kept in a checkpoint
 
     double overshoot() const { return mass - stopMass; }  ///< dosed after the coil was told to stop [kg]
 };

@@ -27,7 +27,7 @@ class RegionBook {
     void openDose();
     std::vector<RegionCount> sinceDose() const;
 
-    /// For a checkpoint, and back; nothing without regions. Throws RecordError if the record has other regions.
+    /// For a checkpoint, and back. Without regions they do nothing. Throws RecordError if the record has other regions.
     void save(Record& record) const;
     void restore(const Record& record);
 

@@ -12,7 +12,7 @@ namespace vkdose {
 void put(Record& record, const std::string& name, const Sensors& sensors);
 void get(const Record& record, const std::string& name, Sensors& sensors);
 
-/// An energy ledger; nothing if the run keeps none.
+/// An energy ledger, if the run keeps one.
 void put(Record& record, const std::string& name, const std::optional<EnergyLedger>& ledger);
 void get(const Record& record, const std::string& name, std::optional<EnergyLedger>& ledger);
 

@@ -31,7 +31,7 @@ struct Sample {
     std::vector<BodySample> bodies;      ///< of allBodies, in their order
     std::vector<FreePlace> free;         ///< of those that move freely
     std::vector<RegionSample> regions;   ///< of the world's regions likewise
-    std::vector<PowderPlaces> powders;   ///< of each powder; none if there is one
+    std::vector<PowderPlaces> powders;   ///< of each powder; empty with a single one
 };
 
 // The columns of the sensors, by regions in the order of Region.

@@ -23,7 +23,7 @@ class Gate {
     explicit Gate(int port);
     Gate(int port, std::string token) : port_(port), token_(std::move(token)) {}
 
-    /// Why a request is refused, for the person who sent it; nothing if it may pass.
+    /// Why a request is refused, for the person who sent it. Absent if it may pass.
     std::optional<std::string> refusal(const Caller& caller) const;
     /// Whether the request brings the token in its address, so that the browser is to be given the cookie.
     static bool isFirst(const Caller& caller) { return !caller.token.empty(); }

@@ -68,7 +68,7 @@ class Workbench {
     /// Throws Refused for a name that is not inside the folder.
     std::filesystem::path fileOf(const std::string& name) const;
     std::filesystem::path caseOf(const std::string& name) const;
-    /// The law that nobody has allowed yet; nothing if there is none.
+    /// The law that nobody has allowed yet, if there is one.
     std::optional<OwnLaw> lawToAskFor(const std::filesystem::path& file) const;
     void requireAllowed(const std::filesystem::path& file) const;
     void requireKnown(const std::string& powder) const;

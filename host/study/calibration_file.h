@@ -25,7 +25,7 @@ void writeFinding(const std::filesystem::path& folder, const CalibrationFinding&
 /// Removes both files: a search goes on in this folder and may find something else. Throws OutputError.
 void forgetFinding(const std::filesystem::path& folder);
 
-/// The finding that a folder holds; nothing without calibration.json. Throws CaseError if a file is damaged, or the
+/// The finding that a folder holds, if it has a calibration.json. Throws CaseError if a file is damaged, or the
 /// draws of a search are missing.
 std::optional<CalibrationFinding> readFinding(const std::filesystem::path& folder);
 

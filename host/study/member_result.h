@@ -55,7 +55,7 @@ Table dosesIn(const std::filesystem::path& folder);
 /// Whether the folder holds a run that is over, so that it need not be repeated.
 bool isOver(const std::filesystem::path& folder);
 
-/// Simulated time of the last line of a run's time series [s]; 0 if there is none.
+/// Simulated time of the last line of a run's time series [s]; 0 without lines.
 double timeReached(const std::filesystem::path& folder);
 
 }  // namespace vkdose

@@ -16,7 +16,7 @@ namespace vkdose {
 struct LikePowder {
     CalibrationFinding finding;         ///< its targets are what the sheet says; it has a fit, and no points
     double density = 0;                 ///< of the spheres: given, or such that their bed has the bulk density [kg/m3]
-    std::optional<double> bulkDensity;  ///< poured [kg/m3]; none if it is not known
+    std::optional<double> bulkDensity;  ///< poured [kg/m3], if it is known
     double load = 0;                    ///< pre-shear stress that the figures of the ring shear tester are at [Pa]
     /// What the table says of figures that the sheet does not have, over the draws.
     struct Foretold {

@@ -40,7 +40,7 @@ class MemberRunner {
     virtual bool takes(const Member& member) const = 0;
     /// Starts a member and returns at once.
     virtual void start(const MemberTask& task) = 0;
-    /// A member that has ended; nothing if none has ended within a moment (a second or so).
+    /// A member that has ended, if one ends within a moment (a second or so).
     virtual std::optional<MemberEnd> wait() = 0;
     /// Asks those that run to end soon and to keep what they have. They still have to be waited for.
     virtual void interrupt() = 0;

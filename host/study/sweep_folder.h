@@ -40,7 +40,7 @@ class SweepFolder {
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path memberFolder(int number) const;
 
-    /// How a member ended; nothing if it has not.
+    /// How a member ended, if it has.
     std::optional<MemberStatus> status(int number) const;
 
     /// The rows so far, in the order in which the members ended.

@@ -64,7 +64,7 @@ int loadRowsOf(const Scene& scene) {
     return shown == 0 ? 0 : 1 + int(shown) + (scene.loaded.size() > shown ? 1 : 0);
 }
 
-/// Force, torque, power and work of the first bodies; nothing if that does not fit into so many rows.
+/// Force, torque, power and work of the first bodies. Empty if that does not fit into so many rows.
 std::vector<std::string> loadRows(const Scene& scene, const LiveState& s, int columns, int rows) {
     if (rows < loadRowsOf(scene) || scene.loaded.empty()) return {};
     const int width = std::min(columns - 4 * kLoad, kLongestName);

@@ -21,9 +21,9 @@ struct Run {
     double value(const std::string& key) const;
     /// The three numbers of one, likewise.
     Vec3 vector(const std::string& key) const;
-    /// A figure of the summary by its JSON pointer, "/measures/heap/angle_deg"; NaN if there is none.
+    /// A figure of the summary by its JSON pointer, "/measures/heap/angle_deg"; NaN without it.
     double figure(const std::string& pointer) const;
-    /// A column of the time series. Throws CaseError if there is none.
+    /// A column of the time series. Throws CaseError without it.
     std::vector<double> series(const std::string& column) const;
 };
 

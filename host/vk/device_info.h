@@ -33,7 +33,7 @@ struct DeviceInfo {
 /// Queue family with compute; -1 if none.
 int computeFamily(VkPhysicalDevice physical);
 
-/// In the order of `devices`, which give the indices. Throws DeviceError if there is none.
+/// In the order of `devices`, which give the indices. Throws DeviceError without a device.
 std::vector<DeviceInfo> describeAll(const std::vector<VkPhysicalDevice>& devices);
 
 /// The usable devices of the best kind among `devices`. The automatic choice takes the first of them.

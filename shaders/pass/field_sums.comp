@@ -1,7 +1,7 @@
 #version 450
 // field_sums: adds a slice of particles to the fields that are plain sums: density, momentum, number, touching
-// neighbours and contact stress. One point of the grid per invocation; the slices follow each other. Reads the source
-// half of the state, links, entries, forces, branches, weights; writes the grid.
+// neighbours, contact stress and the properties of a user's law. One point of the grid per invocation; the slices
+// follow each other. Reads the source half of the state, links, entries, forces, branches, weights; writes the grid.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "law/mass.glsl"
@@ -10,6 +10,9 @@
 vec4 carriedMass;  // density, momentum
 vec2 number;       // particles, touching neighbours
 mat3 stress;       // column a: row a of the stress
+#ifdef OWN_PROPERTIES
+vec4 ownDensity;  // of each property: its mean times the density of mass
+#endif
 
 void addBranch(uint contact, vec3 from) {
     vec4 branch = branches[contact];
@@ -42,6 +45,9 @@ void add(uint i) {
     float w = weights[particleWeightIndex(i)] * kernel(here - offsetOf(source, i));
     carriedMass += w * m * vec4(1.0, velocity);
     number += w * vec2(1.0, weights[touchesIndex(i)]);
+#ifdef OWN_PROPERTIES
+    ownDensity += w * m * forces[propertyIndex(i, 0u)];
+#endif
     if (field.tile.w == 1u) addBranches(i);
 }
 
@@ -54,8 +60,14 @@ void main() {
     carriedMass = onwards ? grid[at + kFieldMass] : vec4(0.0);
     number = onwards ? grid[at + kFieldNumber].xy : vec2(0.0);
     for (uint a = 0u; a < 3u; ++a) stress[a] = onwards ? grid[at + kFieldContact + a].xyz : vec3(0.0);
+#ifdef OWN_PROPERTIES
+    ownDensity = onwards ? grid[at + kFieldProperties] : vec4(0.0);
+#endif
     addSlice(low, high, field.tile.w == 1u ? field.along.w : 0.0);
     if (!onGrid) return;
+#ifdef OWN_PROPERTIES
+    grid[at + kFieldProperties] = ownDensity;
+#endif
     grid[at + kFieldMass] = carriedMass;
     grid[at + kFieldNumber] = vec4(number, 0.0, 0.0);
     for (uint a = 0u; a < 3u; ++a) grid[at + kFieldContact + a] = vec4(stress[a], 0.0);

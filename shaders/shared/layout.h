@@ -269,7 +269,8 @@ SHARED_CONST kFieldMass = 0u;     // x: density; yzw: momentum
 SHARED_CONST kFieldNumber = 1u;   // x: number; y: touching neighbours; zw: kinetic stress xx, yy
 SHARED_CONST kFieldKinetic = 2u;  // zz, yz, zx, xy
 SHARED_CONST kFieldContact = 3u;  // and two more: rows of the contact stress
-SHARED_CONST kFieldVectors = 6u;
+SHARED_CONST kFieldProperties = 6u;  // each property times the density; only if a user's law declares some
+SHARED_CONST kFieldVectors = 7u;
 
 struct FieldParams {
     vec4 low;      // xyz: corner of the grid [m]; w: reach of the kernel [m]

@@ -56,7 +56,7 @@ ROWS(history, exertedIndex, 2 * springSlots, historyParts - 2, springSlots)
 ROWS(history, bodyHistoryIndex, historyParts* springSlots, bodySlots, bodyHistory)
 PARAMETERS(4, members, Member, canisters, the parameters)
 HEADED(5, controls, Control, canisters, the control blocks, Dispatches, dispatches)
-// Of each canister's cells: the first particle, kEmpty if there is none. Then of each particle: the next in its cell.
+// Of each canister's cells: the first particle, or kEmpty. Then of each particle: the next in its cell.
 TABLE(6, cells, uint, canisters* cellHeads + particles, the cell table)
 ROWS(cells, headIndex, 0, canisters, cellHeads)
 ROW(cells, nextIndex, canisters* cellHeads, particles)

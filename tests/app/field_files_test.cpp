@@ -8,6 +8,7 @@
 
 #include "host/core/csv_table.h"
 #include "host/core/error.h"
+#include "host/core/file.h"
 #include "host/output/hdf5.h"
 #include "host/output/run_folder.h"
 #include "tests/app/sandbox.h"
@@ -58,7 +59,9 @@ Rows runInto(const fs::path& out, const Case& c) {
     };
     RunFolder folder(out, true, c, "fake");
     const std::atomic<bool> stop{false};
-    folder.finish(c, runFilled(c, smallFilling(), {}, backend, folder, stop));
+    Insertion filled = smallFilling();
+    if (!c.world.properties.empty()) filled.particles.properties.resize(filled.particles.size());
+    folder.finish(c, runFilled(c, filled, {}, backend, folder, stop));
     return readCsv(out / "fields/f.csv");
 }
 
@@ -174,4 +177,18 @@ TEST_CASE("the outlet's field has the outlet velocity and the throat's mass of t
         CHECK(near(value(outlet, row, "velocity_z_m_s"), value(series, at, "outlet_velocity_m_s"), 0.1, 1e-8));
     }
     CHECK(filled > 5);
+}
+
+TEST_CASE("a field has the properties of a user's law behind its other columns, as means over the mass") {
+    const Sandbox box;
+    Case c = caseWith({1, 1, 1}, FieldSensor::Preset::None, true);
+    c.world.properties = {"heat", "charge"};
+    const Rows place = runInto(box / "out", c);
+    CHECK(column(place, "heat") == place[0].size() - 2);
+    CHECK(value(place, 2, "heat") == Approx(22));
+    CHECK(value(place, 2, "charge") == Approx(23));
+    c.fields[0].request.grid.cells = {2, 3, 4};
+    const Rows maps = runInto(box / "map", c);
+    const hdf5::Reader map(fileContent(box / "map/fields" / maps[1].at(column(maps, "file"))).value());
+    CHECK(map.array<double>("/VTKHDF/PointData/charge") == std::vector<double>(24, 23));
 }

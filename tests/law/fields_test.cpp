@@ -62,6 +62,26 @@ double peak(Kernel kernel, int directions, double w) {
 
 }  // namespace
 
+TEST_CASE("fields: a property of particles is carried by their mass") {
+    Particles p = cloud(40, 20e-3);
+    double carried = 0, mass = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        p.properties.push_back({double(i), -1, 0, 0.5});
+        const double m = massOf(onePowder(), p, i);
+        carried += m * double(i);
+        mass += m;
+    }
+    const FieldRequest r = request(Vec3(-20e-3), Vec3(20e-3), {5, 7, 9}, 6e-3);
+    const FieldPoints points = coarseGrain(r, onePowder(), p, {});
+    const FieldPoint sum = sumOf(r, points);
+    CHECK(nearRelative(sum.properties[0], carried, 1e-12));
+    CHECK(nearRelative(sum.properties[1], -mass, 1e-12));
+    CHECK(sum.properties[2] == 0);
+    for (const FieldPoint& at : points)
+        if (at.density > 0) CHECK(near(at.property(3), 0.5, 1, 1e-12));
+    CHECK(std::isnan(FieldPoint().property(0)));
+}
+
 TEST_CASE("fields: the density integrates to the mass in the grid, to rounding, wherever its faces cut the kernels") {
     const double box = 0.02;
     const Particles p = cloud(211, box);

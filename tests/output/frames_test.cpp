@@ -8,8 +8,12 @@
 
 #include "host/core/error.h"
 #include "host/core/file.h"
+#include "host/law/user_law.h"
+#include "host/output/field_row.h"
+#include "host/output/frame_files.h"
 #include "host/output/frame_writer.h"
 #include "host/output/hdf5.h"
+#include "host/output/particle_row.h"
 #include "host/output/run_files.h"
 #include "tests/app/sandbox.h"
 #include "tests/support/catch.h"
@@ -379,4 +383,30 @@ TEST_CASE("frames hold the bodies: those at rest beside the walls, those that mo
     CHECK(std::count(owners.begin(), owners.end(), 1U) == 12);
     CHECK(std::count(owners.begin(), owners.end(), 0U) > 0);
     CHECK(std::count(owners.begin(), owners.end(), 2U) == 0);
+}
+
+TEST_CASE("no property of a user's law has a name that particles or fields have in tables, lists or frames") {
+    std::vector<std::string> names;
+    for (const Row& columns : {columnNames(kParticleColumns), columnNames(kFieldWhenColumns),
+                               columnNames(kPlaceColumns), columnNames(kQuantityColumns), columnNames(kStressColumns)})
+        names.insert(names.end(), columns.begin(), columns.end());
+    for (const char* ofMap : {"density", "volume_fraction", "momentum", "velocity", "coordination",
+                              "granular_temperature", "kinetic_stress", "contact_stress", "time"})
+        names.emplace_back(ofMap);
+    for (const char* ofList : {"x", "y", "z", "r", "vx", "vy", "vz", "wx", "wy", "wz", "powder"})
+        names.emplace_back(ofList);
+    Case c = smallWorld();
+    c.world.materials.push_back({"sugar", true, 1500});
+    Frame frame = someFrame(1);
+    const hdf5::Reader reader(particlesFile(frame, c.world, 0));
+    const Record inFrames = reader.record("/VTKHDF/PointData");
+    CHECK(inFrames.arrays().size() == 11);
+    for (const auto& [name, values] : inFrames.arrays()) names.push_back(name);
+    const std::string law = "float force(Contact c) { return 1.0; }\nfloat stiffness(Contact c) { return 1.0; }\n";
+    for (const std::string& name : names) {
+        CAPTURE(name);
+        const LawReading read = readLaw("heat.glsl", "particle float " + name + ";\n" + law);
+        CHECK(read.faults.size() == 1);
+    }
+    CHECK(readLaw("heat.glsl", "particle float charge;\n" + law).faults.empty());
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/law/user_law.h"
 #include "host/render/colour.h"
 #include "host/render/quantity.h"
 #include "tests/support/catch.h"
@@ -130,4 +131,12 @@ TEST_CASE("what a user's law gives each particle is a quantity too, from its lea
     CHECK_FALSE(render::quantityNamed("cold", c.world.properties));
     frame.particles.properties.clear();
     CHECK(std::isnan(render::valuesOf(*heat, c, frame, nullptr)[1]));
+}
+
+TEST_CASE("no property of a user's law has the name of another colour") {
+    const std::string law = "float force(Contact c) { return 1.0; }\nfloat stiffness(Contact c) { return 1.0; }\n";
+    for (const std::string name : render::kQuantityNames) {
+        CAPTURE(name);
+        CHECK(readLaw("heat.glsl", "particle float " + name + ";\n" + law).faults.size() == 1);
+    }
 }

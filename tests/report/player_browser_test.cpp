@@ -148,6 +148,24 @@ std::vector<Frame> framesAt(const std::vector<double>& times) {
 
 }  // namespace
 
+TEST_CASE("the player shows what a user's law gives particles in colours of one scale for all frames") {
+    if (browserMissing()) return;
+    const Sandbox box;
+    Json data = dataOf(box);
+    Case c = loadCase(VKDOSE_SOURCE_DIR "/cases/mini.toml");
+    c.world.properties = {"heat"};
+    std::vector<Frame> frames = scene();  // the fast sphere is cold, the slow one hot
+    for (Frame& f : frames) f.particles.properties = {{-40, 0, 0, 0}, {60, 0, 0, 0}};
+    data["player"] = playerJson(c, sourceOf(frames), data["surface"]["z_m"].size());
+    const Json seen = probed(drawn(box, data, kWebGl, readProbe("player_probe.js")));
+    REQUIRE(seen["state"] == "ready");
+    CHECK(seen["ownQuantity"] == "heat");
+    CHECK(seen["first"]["yellow"]["x"] > 0.4);
+    REQUIRE(area(seen["own"], "yellow") > 100);
+    CHECK(seen["own"]["yellow"]["x"] < 0.35);
+    CHECK(seen["own"]["blue"]["x"] > 0.4);
+}
+
 TEST_CASE("the player shows a body where its motion has brought it") {
     if (browserMissing()) return;
     const Sandbox box;

@@ -117,6 +117,40 @@ TEST_CASE("frames come out of the page's stream as exact as it says") {
     CHECK(bytes.over());
 }
 
+TEST_CASE("a property of a user's law has 8 bits from its least to its largest value in each frame") {
+    Case c = mini();
+    c.world.properties = {"heat", "charge"};
+    constexpr std::size_t kParticles = 17;
+    std::vector<Frame> frames;
+    for (int f = 0; f < 3; ++f) {
+        Frame& frame = frames.emplace_back(frameOf(0.1 * f, 0, 0, anywhere(c, kParticles, f)));
+        frame.particles.radius = frames[0].particles.radius;
+        for (std::size_t i = 0; i < kParticles && f < 2; ++i)  // the last frame is of a run without them
+            frame.particles.properties.push_back({std::sqrt(double(i) + f), -1.5, 0, 0});
+    }
+    const Json j = playerJson(c, sourceOf(frames), 0);
+    REQUIRE(j["properties"].size() == 2);
+    CHECK(j["properties"][0]["name"] == "heat");
+    CHECK(j["properties"][1]["low"] == Json({-1.5, -1.5, 0.0}));
+    CHECK(j["properties"][1]["high"] == Json({-1.5, -1.5, 0.0}));
+    Bytes bytes(j["stream"].get<std::string>());
+    (void)bytes.words(kParticles);
+    std::vector<int> heat(kParticles, 0), charge(kParticles, 0);
+    for (std::size_t f = 0; f < 3; ++f) {
+        (void)bytes.levels((3 * 2 + 2) * kParticles);  // places, speed, overlap
+        bytes.levelsOnTop(heat);
+        bytes.levelsOnTop(charge);
+        const double low = j["properties"][0]["low"][f], high = j["properties"][0]["high"][f];
+        for (std::size_t i = 0; i < kParticles && f < 2; ++i) {
+            CHECK(near(low + (high - low) * heat[i] / 255, frames[f].particles.properties[i][0], high - low,
+                       0.501 / 255));
+            CHECK(charge[i] == 0);
+        }
+    }
+    (void)bytes.words(2 * kParticles);
+    CHECK(bytes.over());
+}
+
 TEST_CASE("frames that do not fit are thinned out evenly, and the last one stays") {
     const Case c = mini();
     std::vector<Frame> frames;

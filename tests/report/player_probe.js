@@ -79,6 +79,10 @@ async function probe() {
   found.reset = key("Home");
   found.radius = set(colour, "selectedIndex", 3, "change");
   found.quantity = player.querySelector(".quantity").textContent;
+  if (colour.options.length > 5) {
+    found.own = set(colour, "selectedIndex", 5, "change");
+    found.ownQuantity = player.querySelector(".quantity").textContent;
+  }
   set(colour, "selectedIndex", 0, "change");
   clickChart("Torque of the drive", 0.5 / 0.7);
   found.byTime = now();

@@ -319,6 +319,28 @@ Particles warmSpheres() {
 
 }  // namespace
 
+TEST_CASE("the properties of particles are smeared out into fields alike on device and reference") {
+    const RuledWorld w = warmBowl();
+    const auto device = gpu(), reference = makeReferenceBackend();
+    FieldRequest r;
+    r.grid = {Vec3(-6e-3), Vec3(6e-3), {3, 4, 5}};
+    r.width = 4e-3;
+    for (Backend* b : {device.get(), reference.get()}) {
+        b->load(w, warmSpheres());
+        b->advance(100, 0);
+    }
+    const FieldPoints got = device->fields(r), expected = reference->fields(r);
+    std::size_t filled = 0;
+    for (std::size_t n = 0; n < got.size(); ++n) {
+        if (!(expected[n].density > 0)) continue;
+        ++filled;
+        for (const std::size_t k : {0U, 1U}) CHECK(near(got[n].property(k), expected[n].property(k), 5, 1e-4));
+        CHECK(got[n].properties[2] == 0);
+    }
+    CHECK(filled > 10);
+    requireClean(*device);
+}
+
 TEST_CASE("what flows between particles by a user's law is the same on device and reference, and what does not stays") {
     const RuledWorld w = warmBowl();
     auto device = gpu(), reference = makeReferenceBackend();

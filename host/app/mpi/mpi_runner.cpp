@@ -37,7 +37,7 @@ struct Heard {
     Json what;
 };
 
-/// A message that has come; nothing if none has. (Waiting for one would keep a core busy in most MPI libraries.)
+/// A message, if one has come. (Waiting for one would keep a core busy in most MPI libraries.)
 std::optional<Heard> hear() {
     int there = 0, size = 0;
     MPI_Status status;

@@ -46,7 +46,7 @@ struct Touch {
     LawSides sides;    ///< what a user's law knows of them
 };
 
-/// Contact of two spheres; nothing unless their overlap is above -reach [m].
+/// Contact of two spheres, if their overlap is above -reach [m].
 std::optional<Touch> touchSphere(const Body& i, const Body& j, double reach = 0);
 
 /// Contact with a wall at `distance` from the centre of `i` along `normal`. The velocities of `i` and those of `wall`
@@ -85,7 +85,7 @@ struct Response {
 };
 
 /// The law of a contact of these two materials. `dt` [s] is the time by which the springs advance; `history` is
-/// updated. `user` is the program of `law.user`, null if there is none.
+/// updated. `user` is the program of `law.user`; null without a user's law.
 Response contactResponse(const ContactLaw& law, MaterialPair pair, const Touch& touch, double dt, History& history,
                          LawProgram* user = nullptr);
 

@@ -113,6 +113,8 @@ FieldPoints coarseGrain(const FieldRequest& request, const World& world, const P
             at.momentum += mass(i) * w.value * p.velocity[i];
             at.number += w.value;
             at.touches += touches[i] * w.value;
+            for (std::size_t k = 0; k < at.properties.size() && !p.properties.empty(); ++k)
+                at.properties[k] += mass(i) * w.value * p.properties[i][k];
         }
     }
     for (std::size_t i = 0; i < p.size(); ++i) {  // a second loop, because it needs the velocity field

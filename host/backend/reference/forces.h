@@ -39,7 +39,7 @@ struct Drive {
     double rate;                        ///< [rad/s]
     double time;                        ///< since load [s]
     std::span<const BodyClock> clocks;  ///< of bodies that move in phases; empty: they stand at their start
-    std::span<const FreeBody> free;     ///< of bodies that move freely; of the others it means nothing
+    std::span<const FreeBody> free;     ///< of bodies that move freely; other entries are unspecified
 };
 
 class Forces {

@@ -15,7 +15,7 @@ class Neighbours {
     /// reach of a pair.
     void reset(double skin, double reach, std::uint64_t builds = 0, const Vec3& period = Vec3(0));
 
-    /// Builds the list if a particle has moved more than half the skin since the last build, or if there is none yet.
+    /// Builds the list if a particle has moved more than half the skin since the last build, and at the first call.
     void update(const Particles& particles);
 
     /// Makes the list as it was built last, so that the next build falls where it would have. `anchors` are the

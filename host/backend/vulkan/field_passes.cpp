@@ -60,7 +60,7 @@ gpu::FieldParams pack(const FieldRequest& r, const TableSizes& sizes, double lar
     return p;
 }
 
-FieldPoint unpack(const gpu::vec4* v) {
+FieldPoint unpack(const gpu::vec4* v, bool properties) {
     FieldPoint p;
     const gpu::vec4 &mass = v[gpu::kFieldMass], &number = v[gpu::kFieldNumber], &kinetic = v[gpu::kFieldKinetic];
     p.density = double(mass.x);
@@ -70,6 +70,8 @@ FieldPoint unpack(const gpu::vec4* v) {
     p.kineticStress = {double(number.z),  double(number.w),  double(kinetic.x),
                        double(kinetic.y), double(kinetic.z), double(kinetic.w)};
     for (std::size_t row = 0; row < 3; ++row) p.contactStress[row] = Vec3(glm::vec3(v[gpu::kFieldContact + row]));
+    for (std::size_t k = 0; k < p.properties.size() && properties; ++k)
+        p.properties[k] = double(v[gpu::kFieldProperties][int(k)]);
     return p;
 }
 
@@ -125,7 +127,9 @@ FieldPasses::FieldPasses(const vk::Device& device, const Passes& p, std::size_t 
                 Passes::constants(p.sizes)),
       weigh_(device, bindings_, passCode("field_weights", spirv::field_weights, {0, nullptr, p.access.addressed}),
              Passes::constants(p.sizes)),
-      sums_(device, bindings_, passCode("field_sums", spirv::field_sums, {0, nullptr, p.access.addressed}),
+      sums_(device, bindings_,
+            passCode("field_sums", spirv::field_sums,
+                     {0, p.sizes.properties() ? p.sizes.userLaw.get() : nullptr, p.access.addressed}),
             Passes::constants(p.sizes)),
       kinetic_(device, bindings_, passCode("field_kinetic", spirv::field_kinetic, {0, nullptr, p.access.addressed}),
                Passes::constants(p.sizes)) {}
@@ -177,7 +181,8 @@ FieldPoints FieldPasses::compute(const FieldRequest& request, const Moment& mome
     const auto vectors = own_.grid.readAll<gpu::vec4>(gpu::kFieldVectors * request.grid.points());
     FieldPoints points;
     points.reserve(request.grid.points());
-    for (std::size_t k = 0; k < request.grid.points(); ++k) points.push_back(unpack(&vectors[gpu::kFieldVectors * k]));
+    for (std::size_t k = 0; k < request.grid.points(); ++k)
+        points.push_back(unpack(&vectors[gpu::kFieldVectors * k], s.properties()));
     return points;
 }
 
