@@ -14,6 +14,7 @@ set(passes
     "pass/bin texel"
     "pass/neighbours texel"
     "pass/near texel energy texel_energy bodies texel_bodies energy_bodies texel_energy_bodies"
+    "pass/parts texel"
     "pass/link texel energy texel_energy"
     "pass/commit_lists"
     "pass/pairs texel packed energy texel_energy packed_energy"

@@ -317,6 +317,15 @@ void meshPlaces(uint shape, uvec4 head, Two3 centre, float radius) {
     placesLost = placesLost || end != list.y;
 }
 
+/// The number of features of a sphere near which there is only the face of one triangle, the first of its list.
+uint touchedFace(uint body, Two3 centre, float radius) {
+    uint shape = geometryAt(kBodyVectors * body).x;
+    uint triangle = nearbyAt(0u) >> kPartBits;
+    MeshPlace place = facePlace(geometryAt(shape + 4u).x + kTriangleVectors * triangle, centre, radius);
+    features[0] = BodyFeature(place.depth, place.direction, geometryAt(shape).y + triangle, 1.0);
+    return place.depth > 0.0 ? 1u : 0u;
+}
+
 #ifdef KEEPS_NEARBY
 /// Makes the list near a sphere: all that may be a place until its centre has gone `slack` in the body's frame. Gives
 /// the number of entries, or kWholeCell if there are more than the list holds. The sphere's radius and the slack
@@ -327,13 +336,13 @@ uint listNearby(uint shape, uvec4 head, Two3 centre, float radius, float slack) 
     uvec2 list = cellList(shape, head.z, centre.high);
     // First the triangles within reach, then what of them may be a place.
     uint found = 0u, k = 0u;
-    for (; k < list.y && found < kNearbyWords; ++k) {
+    for (; k < list.y && found < kSortedWord; ++k) {
         uint t = nthTriangle(head.w, list.x, k);
         if (!mayReach(starts.x + kTriangleVectors * t, centre.high, radius + slack + margin)) continue;
-        if (found + 1u < kNearbyWords) keepNearby(found, t);
+        if (found + 1u < kSortedWord) keepNearby(found, t);
         ++found;
     }
-    if (k < list.y || found == kNearbyWords) return kWholeCell;
+    if (k < list.y || found == kSortedWord) return kWholeCell;
     uint kept = 0u;
     for (k = 0u; k < found; ++k) {
         uint t = nearbyAt(k);

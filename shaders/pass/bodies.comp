@@ -1,5 +1,7 @@
 #version 450
-// bodies: computes the contacts with bodies in this step, one particle and one body near it per invocation.
+// bodies: computes the contacts with bodies in this step, one particle and one body near it per invocation. With
+// ONE_FACE it is the pass `faces`, which does this for particles near one face of a mesh and nothing else of the body
+// (pass/parts.comp): where invocations wait for each other, those near edges and corners would take the time of all.
 // Reads the source half of the state, entries, history, the shapes and motions of the bodies, `nearby`; writes history,
 // forces and torques, which `move` gathers, and the sums of what the particle does to the body, which the host reads.
 //
@@ -18,8 +20,9 @@
 
 const float kFarthest = 0.70710678;  // cosine of 45 degrees
 
-/// How many contacts with a body a particle can have.
-uint mostTouches() { return fewPlaces() ? MOST_PLACES : kMaxBodyTouches; }
+/// How many contacts with a body a particle can have had in the last step, and can have now.
+uint mostBefore() { return fewPlaces() ? MOST_PLACES : kMaxBodyTouches; }
+uint mostTouches() { return ONE_FACE == 1u ? 1u : mostBefore(); }
 
 /// How often a loop over `count` features runs. A loop over one at most has a constant bound: see law/places.glsl.
 uint trips(uint count) { return mostTouches() == 1u ? 1u : count; }
@@ -33,7 +36,7 @@ vec3 oldDirection[kMaxBodyTouches];
 
 void recall(uint slot) {
     touched = 0u;
-    for (uint k = 0u; k < mostTouches(); ++k) {
+    for (uint k = 0u; k < mostBefore(); ++k) {
         vec4 direction = historyAt(placeHistoryIndex(slot, k, 2u));
         oldDirection[k] = direction.xyz;
         if (direction.w > 0.0) touched |= 1u << k;
@@ -56,7 +59,7 @@ uint match(uint count) {
         for (uint n = 0u; n < trips(count); ++n) {
             vec3 direction = features[n].direction;
             bool free = n < count && (taken >> n & 1u) == 0u;
-            for (uint k = 0u; k < mostTouches(); ++k) {
+            for (uint k = 0u; k < mostBefore(); ++k) {
                 float cosine = dot(direction, oldDirection[k]);
                 if (free && (left >> k & 1u) != 0u && cosine > nearest) {
                     nearest = cosine;
@@ -91,6 +94,19 @@ Exerted exertedAt(uint slot, uint place) {
 }
 #endif
 
+/// The slot of an invocation, if there is one.
+bool findSlot(out uint slot) {
+    uint k = invocation(), listed = control.listed.z;
+    slot = firstBodySlot();
+    if (sortsSlots()) listed = ONE_FACE == 1u ? control.sorted.x : control.sorted.y;
+    if (waits() || k >= listed) return false;
+    if (sortsSlots())
+        slot = nearby[sortedWord(ONE_FACE == 1u ? k : push.bodySlots - 1u - k)];
+    else
+        slot += k;
+    return true;
+}
+
 void main() {
     openMember();
     openBodies();
@@ -100,9 +116,8 @@ void main() {
     uvec4 chosen = choices();
     float density = gravity().w;
     float springDt = springStep();
-    uint listed = control.listed.z;
-    if (waits() || invocation() >= listed) return;
-    uint slot = firstBodySlot() + invocation();
+    uint slot;
+    if (!findSlot(slot)) return;
     uvec2 who = entriesAt(slot);
     uint i = who.x, body = who.y;
     Body me = readBody(i);
@@ -119,7 +134,8 @@ void main() {
     precise float most = radius;
     if (reaches()) most += reachOf(law, reduced);
     precise float reach = most - radius;
-    uint count = touchedFeatures(body, toBody(motion, me.sphere.high, me.sphere.low), most, reach);
+    Two3 centre = toBody(motion, me.sphere.high, me.sphere.low);
+    uint count = ONE_FACE == 1u ? touchedFace(body, centre, most) : touchedFeatures(body, centre, most, reach);
     uint room = reaches() ? kMaxBodyFeatures : kMaxBodyTouches;
     if (count > room) {
         report(kErrorFeatures, i);

@@ -17,6 +17,10 @@ bool openNearby(uint slot) {
     nearbyStart = kNearbyWords * (slot - springSlotCount());
     return (SHAPE_KINDS & (1u << kShapeMesh)) != 0u && nearbyStart + kNearbyWords <= uint(nearby.length());
 }
+/// Place `k` of the member's sorted slots, counted from its first body slot: those near one face come first, the others
+/// from behind.
+uint sortedWord(uint k) { return kNearbyWords * (firstBodySlot() - springSlotCount() + k) + kSortedWord; }
+bool sortsSlots() { return (SHAPE_KINDS & kSortedSlots) != 0u; }
 uint nearbyAt(uint i) { return nearby[nearbyStart + 1u + i]; }
 #ifdef KEEPS_NEARBY
 void keepNearby(uint i, uint entry) { nearby[nearbyStart + 1u + i] = entry; }

@@ -4,8 +4,9 @@
 // and writes the controls.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
+#include "shared/geometry.h"
 
-shared uvec4 most[gl_WorkGroupSize.x];
+shared uvec4 most[gl_WorkGroupSize.x];  // of pairs, surfaces, bodies, faces
 
 void commit() {
     // A full table is reported; until the host hears of it nothing may reach outside.
@@ -21,7 +22,9 @@ void main() {
     for (uint row = lane; row < push.live; row += gl_WorkGroupSize.x) {
         openRow(row);
         if (control.wanted.y != 0u) commit();
-        most[lane] = max(most[lane], control.listed);
+        bool sorts = (SHAPE_KINDS & kSortedSlots) != 0u;
+        uvec2 bodies = sorts ? control.sorted.yx : uvec2(control.listed.z, 0u);
+        most[lane] = max(most[lane], uvec4(control.listed.xy, bodies));
     }
     barrier();
     if (lane != 0u) return;
@@ -30,4 +33,5 @@ void main() {
     dispatches.pairs.xz = spread(groups.x);
     dispatches.surfaces.xz = spread(groups.y);
     dispatches.bodies.xz = spread(groups.z);
+    dispatches.faces.xz = spread(groups.w);
 }

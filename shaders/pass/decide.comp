@@ -26,7 +26,7 @@ float bodyWay(uint made) { return 0.0; }
 #endif
 
 const uint kRebuild = 1u, kRefresh = 2u;
-shared uint wished;
+shared uint wished, nearBodies;
 
 // Where strides and refreshes fall must follow from the number of the step and the state, not from where the host ends
 // a batch. So a stride ends where the number of the step is a multiple of kStride, a refresh that need not be made at
@@ -84,6 +84,7 @@ uint plan() {
     if (wanted.y != 0u) {
         drift = 0.0;
         control.drift.y = bodySlack(way);
+        control.sorted = uvec4(0u);
     }
     control.steps.y = stepsWithin(drift, min(left, kStride - late));
     control.wanted = uvec4(wanted, 0u, 0u);
@@ -91,12 +92,13 @@ uint plan() {
 }
 
 void main() {
-    if (gl_LocalInvocationID.x == 0u) wished = 0u;
+    if (gl_LocalInvocationID.x == 0u) wished = nearBodies = 0u;
     barrier();
     for (uint row = gl_LocalInvocationID.x; row < push.live; row += gl_WorkGroupSize.x) {
         openRow(row);
         if (push.stepInStride > 0u) account();
         atomicOr(wished, plan());
+        if (BODIES > 0u) atomicMax(nearBodies, control.listed.z);
     }
     barrier();
     if (gl_LocalInvocationID.x != 0u) return;
@@ -105,5 +107,6 @@ void main() {
     dispatches.heads.xz = rebuild ? spread((push.cellMask + gl_WorkGroupSize.x) / gl_WorkGroupSize.x) : none;
     dispatches.particles.xz = rebuild ? groups : none;
     dispatches.refresh.xz = refresh ? groups : none;
+    dispatches.parts.xz = refresh ? spread(nearBodies / gl_WorkGroupSize.x + 1u) : none;
     dispatches.settle.x = refresh ? 1u : 0u;
 }

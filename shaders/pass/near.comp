@@ -10,8 +10,8 @@
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
 #ifdef WITH_BODIES
-#define KEEPS_NEARBY
 #include "pass/bodies.glsl"
+#include "pass/near_bodies.glsl"
 #endif
 #ifdef ENERGY_BOOK
 #include "pass/books.glsl"
@@ -39,29 +39,6 @@ void bookDepartureFromBody(uint i, uint slot, uint body) {
 }
 #endif
 
-/// The largest of the bodies that move freely (pass/free_bodies.comp).
-float slackOfFreeBodies() {
-    float most = 0.0;
-    for (uint b = 0u; b < member.bodies.x; ++b) {
-        BodyMotion motion = motionOf(b);
-        if (motion.free.w != 0.0) most = max(most, slackOfFreeBody(freeSpeed(motion)));
-    }
-    return most;
-}
-
-/// How far a particle and a body can come nearer before the next refresh. Both may go their slack, and the body a step
-/// more before it is told that it has.
-float slackToBodies(vec3 at, float slack) {
-    if (member.bodies.x == 0u) return slack;
-    float most = slack + control.drift.y + 2.0 * motionOf(0u).way.y + (1e-7 + 2.0 * roundingAt(at));
-    if ((SHAPE_KINDS & kFreeBodies) != 0u) most += slackOfFreeBodies();
-    return most;
-}
-
-Two3 centreOn(uint body, uint i) {
-    return toBody(motionOf(body), readState(source, kPosition, i).xyz, readState(source, kResidue, i).xyz);
-}
-
 /// The bodies within reach, a bit each.
 uint nearBodies(uint i, float radius, float reach) {
     uint near = 0u;
@@ -73,24 +50,8 @@ uint nearBodies(uint i, float radius, float reach) {
     return near;
 }
 
-/// Keeps the parts of triangles that the slot's particle can touch before the next refresh: until it and the body have
-/// gone `slack` in all.
-void listParts(uint slot, uint body, Two3 centre, float radius, float slack) {
-    if (!openNearby(slot)) return;
-    uint kept = kWholeCell, meshes = 0u;
-    uvec2 shapes = geometryAt(kBodyVectors * body).xy;
-    for (uint s = 0u; s < shapes.y; ++s) {
-        uint shape = shapes.x + kShapeVectors * s;
-        uvec4 head = geometryAt(shape);
-        if (head.x != kShapeMesh) continue;
-        ++meshes;
-        kept = listNearby(shape, head, centre, radius, slack);
-    }
-    nearby[nearbyStart] = meshes == 1u ? kept : kWholeCell;
-}
-
 /// Lists the bodies, and carries on what the particle remembers of them.
-void listBodies(uint i, uvec4 range, float radius, float slack) {
+void listBodies(uint i, uvec4 range) {
     uint count = bitCount(bodies);
     firstBody = atomicAdd(control.coming.z, count);
     if (firstBody + count > push.bodySlots) {
@@ -103,7 +64,6 @@ void listBodies(uint i, uvec4 range, float radius, float slack) {
     for (uint left = bodies; left != 0u; left &= left - 1u, ++to) {
         uint body = uint(findLSB(left));
         entries[comingEntryIndex(to)] = uvec2(i, body);
-        listParts(to, body, centreOn(body, i), radius, slack);
         for (uint part = 0u; part < kBodyHistory; ++part) carried[placeHistoryIndex(to, 0u, part)] = vec4(0.0);
     }
     uint first = springSlotCount();
@@ -214,7 +174,7 @@ void main() {
     float most = p.w, toBodies = slackToBodies(p.xyz, slack);
     if (reaches()) most += longestReach();
     bodies = nearBodies(i, p.w, most + toBodies);
-    listBodies(i, range, most, toBodies);
+    listBodies(i, range);
 #endif
     ranges[slotRangeIndex(i)] = uvec4(firstPair, pairs, firstSurface, met);
 }

@@ -40,6 +40,7 @@ SHARED_CONST kShapeRoom = 7u;
 SHARED_CONST kShapeWire = 8u;
 SHARED_CONST kShapeMesh = 9u;
 SHARED_CONST kShapeFlight = 10u;
+SHARED_CONST kSortedSlots = 1u << 29u;  // a bit beside those of the kinds: slots are sorted (pass/parts.comp)
 SHARED_CONST kNoShape = 30u;
 SHARED_CONST kFreeBodies = 1u << 31u;  // a bit beside those of the kinds: a body moves freely
 
@@ -52,7 +53,8 @@ SHARED_CONST kMostInCell = 4096u;
 SHARED_CONST kMostAtVertex = 4096u;
 SHARED_CONST kMostFlightTurns = 64u;  // of a screw that one sphere reaches
 
-SHARED_CONST kNearbyWords = 32u;  // of a body slot in the table `nearby`
+SHARED_CONST kNearbyWords = 32u;               // of a body slot in the table `nearby`: how many, entries ...
+SHARED_CONST kSortedWord = kNearbyWords - 1u;  // ... and a place of the sorted slots
 // Of a mesh. An entry of `nearby` keeps a triangle's number above the bits of its seven parts.
 SHARED_CONST kMostTriangles = 1u << 25;
 

@@ -206,10 +206,12 @@ struct Dispatches {   // indirect arguments, three words each: workgroups in a r
     uvec4 heads;      // workgroups that clear the cell table, 0 while no rebuild of the rows is wanted
     uvec4 particles;  // workgroups over the particles, ditto
     uvec4 refresh;    // workgroups over the particles, 0 while no refresh of the contact lists is wanted
+    uvec4 parts;      // workgroups over the particles that were near a body before, ditto
     uvec4 settle;     // one workgroup, ditto
     uvec4 pairs;      // workgroups over the entries of the contact lists: pairs ...
     uvec4 surfaces;   // ... contacts with surfaces ...
     uvec4 bodies;     // ... particles near a body
+    uvec4 faces;      // ... of these those near one face of a mesh; then `bodies` has the others
     uvec4 tables[kTables];  // xy: address of each table, its low word first, where passes reach tables by address
 };
 
@@ -219,6 +221,7 @@ struct Control {   // a member's
                    // made of these
     uvec4 listed;  // entries of the contact lists in use: pairs, surfaces, particles near bodies; w: 1 if a call asks
                    // for new lists when the number of steps is next a multiple of kStride
+    uvec4 sorted;  // body slots in use, if they are sorted: x: near one face of a mesh, y: others
     uvec4 coming;  // entries taken so far by the refresh at work: those, and links
     uvec4 list;   // x: entries of the rows in use; y: rebuilds since load; z: longest row ever; w: refreshes since load
     vec4 drift;   // x: longest way of a driven body since the last refresh, y: the one that the lists allow for [m]

@@ -133,7 +133,7 @@ class Ensemble {
     /// Packs the bodies of a member for passes of these sizes, which learn what shapes there are.
     static PackedBodies packedBodies(MemberState& m, TableSizes& sizes);
     static void packAllBodies(Plan& plan);
-    void makeBodies(const Plan& plan);
+    void makeBodies(Plan& plan);
     /// Sets how many steps of all motions the table holds. Returns false if it does not hold any.
     bool boundBatch();
     /// Where the loads on its bodies are.

@@ -128,7 +128,7 @@ void Ensemble::packAllBodies(Plan& plan) {
 }
 
 /// Makes the tables of the bodies, with room for their motions in a batch.
-void Ensemble::makeBodies(const Plan& plan) {
+void Ensemble::makeBodies(Plan& plan) {
     if (plan.sizes.bodies == 0) return;
     std::size_t motions = 0;  // of one step
     for (const MemberState& m : members_) motions += m.bodies.size();
@@ -139,9 +139,11 @@ void Ensemble::makeBodies(const Plan& plan) {
     const std::size_t stepsOfRoom = room / (sizeof(gpu::BodyMotion) * std::max<std::size_t>(motions, 1));
     // A slot beyond what the device can bind keeps no triangles: its particle looks at all of its cell.
     std::size_t slots = 0;
-    if ((plan.sizes.shapeKinds & 1U << gpu::kShapeMesh) != 0)
-        slots = std::min<std::size_t>(std::size_t(plan.sizes.members) * plan.sizes.bodySlots,
-                                      limits.maxStorageBufferRange / (gpu::kNearbyWords * sizeof(std::uint32_t)));
+    if ((plan.sizes.shapeKinds & 1U << gpu::kShapeMesh) != 0) {
+        const std::size_t all = std::size_t(plan.sizes.members) * plan.sizes.bodySlots;
+        slots = std::min<std::size_t>(all, limits.maxStorageBufferRange / (gpu::kNearbyWords * sizeof(std::uint32_t)));
+        if (slots == all) plan.sizes.shapeKinds |= gpu::kSortedSlots;
+    }
     bodies_ = std::make_unique<BodyTables>(device_, plan.shapes,
                                            std::clamp<std::size_t>(stepsOfRoom, 2, 1025) * motions, slots);
     boundBatch();

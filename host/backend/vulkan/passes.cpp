@@ -53,6 +53,8 @@ struct StepPass {
     bool forFree = false;      ///< has nothing to do without bodies that move freely
     bool knowsLaw = false;     ///< knows the law, or what contacts remember
     bool moves = false;        ///< adds up what a law lets flow
+    bool forMeshes = false;    ///< has nothing to do without meshes
+    bool oneFace = false;      ///< has nothing to do unless slots are sorted, and then those near one face
 };
 
 /// A stride: `decide`, the passes that make new lists, then steps of the other passes.
@@ -62,16 +64,20 @@ constexpr std::array kPasses{
     StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
     StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, false, true},
+    StepPass{"parts", spirv::parts, Extent::OfDevice, offsetof(gpu::Dispatches, parts), true, true, false, false, false,
+             true},
     StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, false, true},
     StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
     StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false, false, true},
     StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false, false,
              true},
+    StepPass{"faces", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, faces), true, true, false, true, false,
+             true, true},
     StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true, false, true},
     StepPass{"free_bodies", spirv::free_bodies, Extent::Bodies, 0, true, true, true},
     StepPass{"move", spirv::move, Extent::Particles, 0, false, false, false, false, true},
 };
-constexpr std::size_t kDecide = 0, kFirstOfStep = 7, kMove = kPasses.size() - 1, kFree = kMove - 1;
+constexpr std::size_t kDecide = 0, kFirstOfStep = 8, kMove = kPasses.size() - 1, kFree = kMove - 1;
 
 }  // namespace
 
@@ -161,8 +167,12 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
         std::optional<vk::Pipeline>& made = passes_.emplace_back();
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
         if (pass.forFree && (s.shapeKinds & gpu::kFreeBodies) == 0) continue;
-        made.emplace(device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
-                     codeOf(pass.name, pass.variants, pass.knowsLaw || (pass.moves && s.properties())), constants(s));
+        if (pass.forMeshes && (s.shapeKinds & 1U << gpu::kShapeMesh) == 0) continue;
+        if (pass.oneFace && (s.shapeKinds & gpu::kSortedSlots) == 0) continue;
+        made.emplace(
+            device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
+            codeOf(pass.oneFace ? "bodies" : pass.name, pass.variants, pass.knowsLaw || (pass.moves && s.properties())),
+            constants(s, pass.oneFace));
     }
 }
 
@@ -178,9 +188,10 @@ std::vector<const char*> Passes::names() {
     return names;
 }
 
-std::array<std::uint32_t, 16> Passes::constants(const TableSizes& s) {
-    return {s.workgroup,  s.surfaces, s.surfaceKinds, s.kindSet, s.members,   s.mostGroups, s.front,   s.bodies,
-            s.shapeKinds, s.laws,     s.mostPlaces,   s.powders, s.manyWalls, s.outlets,    s.periods, s.wallLoads};
+std::array<std::uint32_t, 17> Passes::constants(const TableSizes& s, bool oneFace) {
+    return {s.workgroup, s.surfaces, s.surfaceKinds, s.kindSet,   s.members,        s.mostGroups,
+            s.front,     s.bodies,   s.shapeKinds,   s.laws,      s.mostPlaces,     s.powders,
+            s.manyWalls, s.outlets,  s.periods,      s.wallLoads, oneFace ? 1U : 0U};
 }
 
 namespace {
@@ -229,10 +240,10 @@ void Passes::setLive(std::uint32_t live) {
     gpu::Dispatches d{};
     d.heads = groups((sizes.cells + sizes.workgroup - 1) / sizes.workgroup);
     d.particles = d.refresh = groups(sizes.groups());
+    d.parts = d.bodies = d.faces = groups(sizes.bodySlots / sizes.workgroup);
     d.settle = gpu::uvec4(1, 1, 1, 0);
     d.pairs = groups(sizes.pairSlots / sizes.workgroup);
     d.surfaces = groups(sizes.surfaceSlots / sizes.workgroup);
-    d.bodies = groups(sizes.bodySlots / sizes.workgroup);
     const std::vector<const vk::Buffer*> tables = all();
     for (std::size_t n = 0; n < tables.size(); ++n) d.tables[n] = gpu::uvec4(addressWords(*tables[n]), 0, 0);
     controls.write(0, &d, sizeof d);
@@ -315,7 +326,8 @@ void Passes::recordSteps(vk::Commands& commands, std::uint32_t count, bool openi
         for (std::uint32_t step = 0; step < stride; ++step) {
             pushStep(step, opening && done + step == 0);
             if (step == 0)
-                for (std::size_t n = kDecide + 1; n < kFirstOfStep; ++n) one(n, true);
+                for (std::size_t n = kDecide + 1; n < kFirstOfStep; ++n)
+                    if (passes_[n]) one(n, true);
             // Contacts of different kinds have different parts of the tables, and need not wait for one another. Nor
             // need particles and bodies that move. The validation layer knows whole tables only, so with it they do.
             for (std::size_t n = kFirstOfStep; n < kFree; ++n) one(n, n + 1 == kFree || validated_);

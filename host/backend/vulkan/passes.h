@@ -118,8 +118,8 @@ class Passes : public Tables {
 
     /// The push constants of every dispatch, for the roster's first row.
     gpu::StepPush push(std::uint32_t stepInStride, bool opening) const;
-    /// Specialisation constants of every pass over tables of this size.
-    static std::array<std::uint32_t, 16> constants(const TableSizes& sizes);
+    /// Specialisation constants of every pass over tables of this size; `oneFace`: of the pass `faces`.
+    static std::array<std::uint32_t, 17> constants(const TableSizes& sizes, bool oneFace = false);
 
     /// The passes of a stride, in their order.
     static std::vector<const char*> names();
