@@ -1,7 +1,7 @@
 #version 450
 // link: makes the lists that `near` prepared the current ones. Lists for every particle the slots of its contacts, in
-// an order that no timing changes. Reads state, rows, coming entries, carried history; writes entries, history, links
-// and their ranges, list anchors.
+// an order that no timing changes. Reads state, rows, who in them is near, coming entries, carried history; writes
+// entries, history, links and their ranges, list anchors.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/buffers.glsl"
 #include "pass/margin.glsl"
@@ -42,13 +42,7 @@ void main() {
     vec4 p = readState(source, kPosition, i);
     float slack = slackOfParticle(i);
     uvec4 range = rangesAt(rowRangeIndex(i)), own = rangesAt(slotRangeIndex(i));
-
-    uvec2 near = uvec2(0u);  // the others of the row, a bit each
-    for (uint s = 0u; s < range.y; ++s) {
-        uint j = rowsAt(rowIndex(range.x + s));
-        bool meets = nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j));
-        if (meets) near |= s < 32u ? uvec2(1u << s, 0u) : uvec2(0u, 1u << (s - 32u));
-    }
+    uvec2 near = range.zw;  // the others of the row, a bit each
     uvec4 ofBodies = uvec4(0u);
     if (BODIES > 0u) ofBodies = rangesAt(bodyRangeIndex(i));
 

@@ -8,7 +8,7 @@
 
 float slackOfParticle(uint i) { return slackOf(readState(source, kVelocity, i).xyz); }
 
-/// Symmetric to the last bit, so that both particles of a pair decide the same, and `precise`, so that all passes do.
+/// Symmetric to the last bit, and `precise`, so that both particles of a pair decide the same.
 /// The factor and `roundingAt` cover the rounding.
 bool nearPair(vec4 p, float slackP, vec4 q, float slackQ) {
     precise vec3 d = p.xyz - q.xyz;

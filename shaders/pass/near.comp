@@ -146,28 +146,30 @@ void main() {
     float slack = slackOfParticle(i);
     uvec4 range = rangesAt(rowRangeIndex(i)), old = rangesAt(slotRangeIndex(i));
 
-    uvec2 near = uvec2(0u);  // the others of the row, a bit each
+    uvec2 near = uvec2(0u), lists = uvec2(0u);  // the others of the row, a bit each; those of larger index
     for (uint s = 0u; s < range.y; ++s) {
         uint j = rowsAt(rowIndex(range.x + s));
-        bool lists = j > i && nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j));
-        if (lists) near |= s < 32u ? uvec2(1u << s, 0u) : uvec2(0u, 1u << (s - 32u));
+        uvec2 bit = s < 32u ? uvec2(1u << s, 0u) : uvec2(0u, 1u << (s - 32u));
+        if (nearPair(p, slack, readState(source, kPosition, j), slackOfParticle(j))) near |= bit;
+        if (j > i) lists |= bit;
     }
+    lists &= near;
     surfaces = nearSurfaces(me, slack);
-    uint pairs = bitCount(near.x) + bitCount(near.y), met = bitCount(surfaces);
+    uint pairs = bitCount(lists.x) + bitCount(lists.y), met = bitCount(surfaces);
 
     uint firstPair = atomicAdd(control.coming.x, pairs);
     firstSurface = atomicAdd(control.coming.y, met);
     bool fits = firstPair + pairs <= push.pairSlots && firstSurface + met <= push.surfaceSlots;
     if (!fits) {
         report(kErrorTables, i);
-        near = uvec2(0u);
+        lists = uvec2(0u);
         surfaces = 0u;
         pairs = 0u;
         met = 0u;
     }
     firstPair += firstPairSlot();
     firstSurface += firstSurfaceSlot();
-    listPairs(i, firstPair, rowIndex(range.x), near, old.x, old.y);
+    listPairs(i, firstPair, rowIndex(range.x), lists, old.x, old.y);
     listSurfaces(i, joinsAtFront(me, slack), old.z, old.w);
 #ifdef WITH_BODIES
     openBodies();
@@ -176,5 +178,6 @@ void main() {
     bodies = nearBodies(i, p.w, most + toBodies);
     listBodies(i, range);
 #endif
+    ranges[rowRangeIndex(i)].zw = near;  // for `link`, in the place of the former links
     ranges[slotRangeIndex(i)] = uvec4(firstPair, pairs, firstSurface, met);
 }

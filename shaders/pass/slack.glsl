@@ -20,7 +20,8 @@ float roundingAt(vec3 at) {
     return most;
 }
 
-/// The same bits in every pass that asks, so `precise`: near and link must find the same contacts.
+/// The same bits in every pass that asks, so `precise`: `move` holds a particle to the slack that `near` listed its
+/// contacts for.
 float slackOf(vec3 velocity) {
     precise float some = kSlackSteps * numerics().x * sqrt(preciseDot(velocity, velocity));
     precise float all = kLeastSlack * slackUnit() + some;
