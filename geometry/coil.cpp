@@ -157,8 +157,10 @@ CoilTouch closestPoint(const Coil& coil, double angle, const Vec3& q) {
 
 std::vector<Feature> Coil::places(const Vec3& centre, double reach) const {
     std::vector<Feature> found;
-    for (const CoilTouch& touch : touches(*this, 0, centre, reach))
-        found.push_back({touch, std::uint32_t(std::lround(std::abs(touch.wireAngle) / (2 * kPi))), 0});
+    for (const CoilTouch& touch : touches(*this, 0, centre, reach)) {
+        const Closest& closest = touch;
+        found.push_back({closest, std::uint32_t(std::lround(std::abs(touch.wireAngle) / (2 * kPi))), 0});
+    }
     return found;
 }
 

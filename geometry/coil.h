@@ -20,7 +20,7 @@ struct Coil {
     int hand = 1;           ///< +1 right-handed, -1 left-handed
 
     /// As it is at the angle 0. A turn is a feature of its own; its key is its number from the start of the wire.
-    std::vector<Feature> places(const Vec3& centre, double radius) const;
+    std::vector<Feature> places(const Vec3& centre, double reach) const;
     ShapeForm form() const;
     void cut(Tessellator& into) const;
 };

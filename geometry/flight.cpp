@@ -144,8 +144,10 @@ std::vector<FlightTouch> touches(const Flight& flight, const Vec3& q, double rea
 
 std::vector<Feature> Flight::places(const Vec3& centre, double radius) const {
     std::vector<Feature> found;
-    for (const FlightTouch& touch : touches(*this, centre, radius))
-        found.push_back({touch, std::uint32_t(std::lround(touch.theta / (2 * kPi))), 0});
+    for (const FlightTouch& touch : touches(*this, centre, radius)) {
+        const Closest& closest = touch;
+        found.push_back({closest, std::uint32_t(std::lround(touch.theta / (2 * kPi))), 0});
+    }
     return found;
 }
 

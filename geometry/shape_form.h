@@ -7,7 +7,7 @@
 //                                                               every local minimum of the distance below the radius,
 //                                                               with a key that tells the minima apart
 //   ShapeForm form() const
-//   void cut(Tessellator& into) const                              its surface as triangles (tessellator.h)
+//   void cut(Tessellator& into) const                           its surface as triangles (tessellator.h)
 //   ShapeRecord record() const                                  if a device has no tables of its own for it
 
 #include <array>
@@ -53,7 +53,7 @@ struct Around {
 };
 
 enum class ShapeKind : std::uint32_t {
-#define SHAPE(number, Name, kind, overlap) Name = number,
+#define SHAPE(number, Name, kind, overlap) Name = (number),
 #include "shaders/shared/shapes.h"
     Room = 7
 };

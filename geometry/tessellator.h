@@ -10,6 +10,7 @@ namespace vkdose::geometry {
 /// Whether straight lines on a curved shape are cut as well.
 enum class StraightLines { Cut, Whole };
 
+/// Collects the triangles.
 class Tessellator {
   public:
     using Corners = std::vector<Vec3>;

@@ -14,7 +14,7 @@ enum class CoulombLimit { Luding = 0, Absolute = 1 };
 /// The law of the normal force. It also says how stiff sliding, rolling and torsion are, and how strongly all are
 /// damped. The files of their names say what they are (host/law).
 enum class NormalLaw {
-#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) Name = number,
+#define LAW(number, Name, name, reaches, stiffens, keepsOverlap) Name = (number),
 #include "shaders/shared/laws.h"
     User = 4,  ///< ContactLaw::user
 };

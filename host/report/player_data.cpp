@@ -33,7 +33,7 @@ std::uint16_t sixteenBits(double value, double low, double high) {
 }
 
 std::uint8_t eightBits(double value, double low, double high) {
-    return static_cast<std::uint8_t>(sixteenBits(value, low, high) / 257.0 + 0.5);
+    return static_cast<std::uint8_t>(std::lround(sixteenBits(value, low, high) / 257.0));
 }
 
 std::uint8_t speedLevel(double speed) {

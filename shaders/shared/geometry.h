@@ -34,7 +34,7 @@ SHARED_CONST kFewPlaces = 4u;        // of one body, that law/places.glsl keeps 
 SHARED_REAL kEverywhere = 1e15f;     // radius of the sphere around a shape without an end [m]
 
 // Kinds of shapes. The first four are those of the fixed surfaces (layout.h: kPlane, kTrough, kTube, kFront).
-#define SHAPE(number, Name, kind, overlap) SHARED_CONST kind = number;
+#define SHAPE(number, Name, kind, overlap) SHARED_CONST kind = (number);
 #include "shapes.h"
 SHARED_CONST kShapeRoom = 7u;
 SHARED_CONST kShapeWire = 8u;
