@@ -201,8 +201,7 @@ std::span<const Key> bodyKeys() {
         text("name", kRequired, "of the body, in messages and tables: letters, digits, `-` and `_`"),
         word("shape", words, "mesh",
              "in the body's own frame: a plane through the origin; a box or a ball about it; all others around the z "
-             "axis, "
-             "from z = 0 on")
+             "axis, from z = 0 on")
             .replacing("*"),
         word("contact", "wall coil", "wall",
              "whose contact parameters it has: those of `[contact.wall]` or `[contact.coil]`")
@@ -211,8 +210,7 @@ std::span<const Key> bodyKeys() {
             .replacing("contact"),
         text("moves_with", told("none"),
              "in place of `[body.motion]`: name of a `[[body]]` before it, whose motion it shares, as if the two were "
-             "one. "
-             "Not of one that is `free` or on a `hinge`")
+             "one. Not of one that is `free` or on a `hinge`")
             .replacing("motion"),
         vector(
             "at", kMetre, {0, 0, 0},

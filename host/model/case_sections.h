@@ -96,7 +96,7 @@ std::vector<CountRegion> readRegions(CaseReader& reader, Section& root, const st
 // ---- read_contact.cpp, read_luding.cpp, read_elastic.cpp ------------------------------------------------------------
 
 /// Gives the tables that readContact reads their place in the resolved case, before those of the apparatus.
-void placeContact(CaseReader& reader, Section& root, const std::vector<Material>& materials);
+void placeContact(CaseReader& reader, Section& root, const World& world);
 /// Reads contacts and the adhesion of settling into a case whose powders, walls and coil are known: parameters may
 /// follow from the weight of the bed.
 void readContact(CaseReader& reader, Section& root, const MaterialTables& tables, Case& c);

@@ -94,7 +94,7 @@ CaseRead readCase(CaseReader& reader, const std::filesystem::path& file) {
     c.derivations = powders.told.derivations;
     add(c.files, powders.told.files);
     estimateBulkDensity(root, c);
-    placeContact(reader, root, c.world.materials);
+    placeContact(reader, root, c.world);
     const WallsRead walls = readBoundaries(reader, root, c.world.materials);
     c.canister = walls.canister;
     c.world.walls = walls.walls;

@@ -173,13 +173,11 @@ std::string meansOf(const LawTables& in, const PairSection& pair, const char* ki
     return fmt::format("{} means of {} and {}", kind, name(pair.stated.pair.a), name(pair.stated.pair.b));
 }
 
-void placeContact(CaseReader& reader, Section& root, const std::vector<Material>& materials) {
+void placeContact(CaseReader& reader, Section& root, const World& world) {
     Section& contact = root.requiredTable("contact");
     contact.table("wall");
     contact.table("coil");
-    World world;
-    world.materials = materials;
-    if (materials.size() > std::size_t(kUsualMaterials)) (void)tablesOf(reader, contact, world);
+    if (world.materials.size() > std::size_t(kUsualMaterials)) (void)tablesOf(reader, contact, world);
     root.table("settle");
 }
 

@@ -17,8 +17,7 @@ namespace vkdose {
 namespace {
 
 /// Makes meshes anew that were read for a shorter reach, because the law was not known yet.
-void widenMeshes(Case& c, std::optional<double> skin) {
-    const double largest = overall(powderSizes(c)).largest;
+void widenMeshes(Case& c, std::optional<double> skin, double largest) {
     const double reach = meshReach(
         c, skin, std::max(longestReach(c.world, c.settlingLaw, largest), longestReach(c.world, c.dosingLaw, largest)));
     for (RigidBody& body : c.world.bodies)
@@ -28,8 +27,8 @@ void widenMeshes(Case& c, std::optional<double> skin) {
                     *mesh = std::make_shared<const geometry::MeshSurface>((*mesh)->mesh(), reach);
 }
 
-void completeTime(Section& time, const TimeRead& given, Case& c, const SizeRange& sizes) {
-    const auto modes = modesOf(c, powderSizes(c));
+void completeTime(Section& time, const TimeRead& given, Case& c, const PowderSizes& powders) {
+    const auto modes = modesOf(c, powders);
     if (given.step) {
         c.world.timeStep = *given.step;
     } else {
@@ -39,7 +38,7 @@ void completeTime(Section& time, const TimeRead& given, Case& c, const SizeRange
         c.world.timeStep = nearestDecimal(std::floor(exact / unit) * unit, 3);
         time.record("step_s", c.world.timeStep);
     }
-    c.world.skin = given.skin ? *given.skin : time.number("skin_mm", kUsualSkin * sizes.mean * 1e3);
+    c.world.skin = given.skin ? *given.skin : time.number("skin_mm", kUsualSkin * overall(powders).mean * 1e3);
     const double steps = std::max(1.0, std::round(c.sensorInterval / c.world.timeStep));
     c.sensorInterval = steps * c.world.timeStep;
     if (c.frames.interval > 0)
@@ -117,8 +116,8 @@ Case resolveCase(CaseReader& reader, CaseRead read) {
     reader.throwIfFaulty();
     tryUserLaw(reader, c, powders);
     reader.throwIfFaulty();
-    widenMeshes(c, read.time.skin);
-    completeTime(reader.root().table("time"), read.time, c, sizes);
+    widenMeshes(c, read.time.skin, sizes.largest);
+    completeTime(reader.root().table("time"), read.time, c, powders);
     checkTimeStep(reader, c, powders);
     checkScales(reader, c, sizes);
     reader.throwIfFaulty();

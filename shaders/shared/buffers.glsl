@@ -26,8 +26,8 @@ layout(constant_id = 11) const uint POWDERS = 1u;     // 1: all particles are of
 layout(constant_id = 12) const uint MANY_WALLS = 0u;  // 1: a surface or body is of a material of its own
 layout(constant_id = 13) const uint OUTLETS = 0u;     // most regions of a member that delete
 layout(constant_id = 14) const uint PERIODS = 0u;     // 1: a direction of a member repeats
-layout(constant_id = 16) const uint ONE_FACE = 0u;    // 1: the pass `faces`, not `bodies` (pass/bodies.comp)
 layout(constant_id = 15) const uint WALL_LOADS = 0u;  // 1: the loads on the surfaces of a member are summed
+layout(constant_id = 16) const uint ONE_FACE = 0u;    // 1: the pass `faces`, not `bodies` (pass/bodies.comp)
 
 layout(push_constant) uniform Push { StepPush pushed; };
 StepPush push = pushed;  // read before any branch, like all that is the same for all: shaders/README.md, Drivers

@@ -267,7 +267,7 @@ struct GroupRecord {  // one per workgroup
 SHARED_CONST kGaussian = 0u;
 SHARED_CONST kLucy = 1u;
 SHARED_CONST kFieldNodes = 4u;  // of the quadrature along a branch
-// A point of the grid: vec4 grid[points][6].
+// A point of the grid: vec4 grid[points][7].
 SHARED_CONST kFieldMass = 0u;     // x: density; yzw: momentum
 SHARED_CONST kFieldNumber = 1u;   // x: number; y: touching neighbours; zw: kinetic stress xx, yy
 SHARED_CONST kFieldKinetic = 2u;  // zz, yz, zx, xy

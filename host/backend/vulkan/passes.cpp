@@ -50,32 +50,84 @@ struct StepPass {
     VkDeviceSize arguments = 0;
     bool readsBodies = false;  ///< binds the tables of shaders/shared/body_tables.h, if there are bodies
     bool forBodies = false;    ///< has nothing to do without bodies
-    bool forFree = false;      ///< has nothing to do without bodies that move freely
+    std::uint32_t needs = 0;   ///< has nothing to do without all of these bits of TableSizes::shapeKinds
     bool knowsLaw = false;     ///< knows the law, or what contacts remember
     bool moves = false;        ///< adds up what a law lets flow
-    bool forMeshes = false;    ///< has nothing to do without meshes
-    bool oneFace = false;      ///< has nothing to do unless slots are sorted, and then those near one face
+    bool oneFace = false;      ///< takes the sorted slots near one face
 };
+
+constexpr std::uint32_t kMeshes = 1U << gpu::kShapeMesh;
 
 /// A stride: `decide`, the passes that make new lists, then steps of the other passes.
 constexpr std::array kPasses{
-    StepPass{"decide", spirv::decide, Extent::One, 0, true},
-    StepPass{"clear", spirv::clear, Extent::OfDevice, offsetof(gpu::Dispatches, heads)},
-    StepPass{"bin", spirv::bin, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
-    StepPass{"neighbours", spirv::neighbours, Extent::OfDevice, offsetof(gpu::Dispatches, particles)},
-    StepPass{"near", spirv::near, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), true, false, false, true},
-    StepPass{"parts", spirv::parts, Extent::OfDevice, offsetof(gpu::Dispatches, parts), true, true, false, false, false,
-             true},
-    StepPass{"link", spirv::link, Extent::OfDevice, offsetof(gpu::Dispatches, refresh), false, false, false, true},
-    StepPass{"commit_lists", spirv::commit_lists, Extent::OfDevice, offsetof(gpu::Dispatches, settle)},
-    StepPass{"pairs", spirv::pairs, Extent::OfDevice, offsetof(gpu::Dispatches, pairs), false, false, false, true},
-    StepPass{"surfaces", spirv::surfaces, Extent::OfDevice, offsetof(gpu::Dispatches, surfaces), false, false, false,
-             true},
-    StepPass{"faces", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, faces), true, true, false, true, false,
-             true, true},
-    StepPass{"bodies", spirv::bodies, Extent::OfDevice, offsetof(gpu::Dispatches, bodies), true, true, false, true},
-    StepPass{"free_bodies", spirv::free_bodies, Extent::Bodies, 0, true, true, true},
-    StepPass{"move", spirv::move, Extent::Particles, 0, false, false, false, false, true},
+    StepPass{.name = "decide", .variants = spirv::decide, .extent = Extent::One, .readsBodies = true},
+    StepPass{.name = "clear",
+             .variants = spirv::clear,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, heads)},
+    StepPass{.name = "bin",
+             .variants = spirv::bin,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, particles)},
+    StepPass{.name = "neighbours",
+             .variants = spirv::neighbours,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, particles)},
+    StepPass{.name = "near",
+             .variants = spirv::near,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, refresh),
+             .readsBodies = true,
+             .knowsLaw = true},
+    StepPass{.name = "parts",
+             .variants = spirv::parts,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, parts),
+             .readsBodies = true,
+             .forBodies = true,
+             .needs = kMeshes},
+    StepPass{.name = "link",
+             .variants = spirv::link,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, refresh),
+             .knowsLaw = true},
+    StepPass{.name = "commit_lists",
+             .variants = spirv::commit_lists,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, settle)},
+    StepPass{.name = "pairs",
+             .variants = spirv::pairs,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, pairs),
+             .knowsLaw = true},
+    StepPass{.name = "surfaces",
+             .variants = spirv::surfaces,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, surfaces),
+             .knowsLaw = true},
+    StepPass{.name = "faces",
+             .variants = spirv::bodies,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, faces),
+             .readsBodies = true,
+             .forBodies = true,
+             .needs = kMeshes | gpu::kSortedSlots,
+             .knowsLaw = true,
+             .oneFace = true},
+    StepPass{.name = "bodies",
+             .variants = spirv::bodies,
+             .extent = Extent::OfDevice,
+             .arguments = offsetof(gpu::Dispatches, bodies),
+             .readsBodies = true,
+             .forBodies = true,
+             .knowsLaw = true},
+    StepPass{.name = "free_bodies",
+             .variants = spirv::free_bodies,
+             .extent = Extent::Bodies,
+             .readsBodies = true,
+             .forBodies = true,
+             .needs = gpu::kFreeBodies},
+    StepPass{.name = "move", .variants = spirv::move, .extent = Extent::Particles, .moves = true},
 };
 constexpr std::size_t kDecide = 0, kFirstOfStep = 8, kMove = kPasses.size() - 1, kFree = kMove - 1;
 
@@ -166,9 +218,7 @@ Passes::Passes(const vk::Device& device, const TableSizes& s, const BodyTables* 
     for (const StepPass& pass : kPasses) {
         std::optional<vk::Pipeline>& made = passes_.emplace_back();
         if (pass.forBodies && !bodyBindings_) continue;  // drivers take their time with it
-        if (pass.forFree && (s.shapeKinds & gpu::kFreeBodies) == 0) continue;
-        if (pass.forMeshes && (s.shapeKinds & 1U << gpu::kShapeMesh) == 0) continue;
-        if (pass.oneFace && (s.shapeKinds & gpu::kSortedSlots) == 0) continue;
+        if ((s.shapeKinds & pass.needs) != pass.needs) continue;
         made.emplace(
             device, pass.readsBodies && bodyBindings_ ? *bodyBindings_ : bindings_,
             codeOf(pass.oneFace ? "bodies" : pass.name, pass.variants, pass.knowsLaw || (pass.moves && s.properties())),
